@@ -1,0 +1,171 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/error.hh"
+#include "embedding/refined_mesh.hh"
+#include "layout/embedding_problem.hh"
+#include "surface/path_graph.hh"
+#include "surface/weak_embedding.hh"
+
+namespace layout_embedding {
+
+enum class Algorithm : std::uint32_t { greedy };
+
+/// Why a job ended.
+enum class EmbedStatus : std::uint32_t {
+    /// The job has not ended.
+    running,
+    /// gap 0 in the stated scope.
+    optimal,
+    /// The gap is at most the one asked for.
+    gap_reached,
+    /// The algorithm came to its end with an embedding, without proving the gap asked for.
+    feasible,
+    time_limit,
+    work_limit,
+    memory_limit,
+    cancelled,
+    /// Proved: no embedding exists.
+    infeasible,
+    /// The algorithm came to its end without an embedding.
+    none_found,
+    /// An error stopped the job; see EmbedJob::error().
+    failed,
+};
+
+/// What a lower bound bounds: every embedding, or only those that insert paths one by one.
+enum class BoundScope : std::uint32_t { embeddings, insertion_sequences };
+
+enum class EmbedPhase : std::uint32_t { prepare, search, realise, check, done };
+
+struct EmbedOptions {
+    Algorithm algorithm = Algorithm::greedy;
+    /// The gap to be reached, (cost - lower bound) / cost; 0 asks for the optimum.
+    double gap = 0.01;
+    std::uint64_t seed = 1;
+    /// Wall-clock seconds for the search; infinity for none. Results under this limit depend on the
+    /// machine; use work_limit for reproducible ones.
+    double time_limit = std::numeric_limits<double>::infinity();
+    /// Node expansions of all searches together.
+    std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
+    /// Bytes the job may take, estimated before it starts.
+    std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();
+};
+
+enum class EventKind : std::uint32_t {
+    /// Another phase began.
+    phase,
+    /// The incumbent improved: a complete embedding of cost `cost`.
+    incumbent,
+    /// The lower bound rose.
+    bound,
+    /// One more path was embedded; nothing is complete yet.
+    progress,
+};
+
+/// Something that happened, with the state after it.
+struct EmbedEvent {
+    EventKind kind;
+    EmbedPhase phase;
+    /// Seconds since the job started.
+    double seconds;
+    /// Node expansions since the job started.
+    std::uint64_t work;
+    /// In target units; infinity while there is no embedding.
+    double cost;
+    double lower_bound;
+    /// Share of the phase that is done, in [0, 1].
+    double progress;
+};
+
+/// Paths as polylines, ready to draw.
+struct Polylines {
+    /// Per path: its first place in `points`; #paths + 1.
+    std::vector<Index> offsets{0};
+    std::vector<Vec3> points;
+    /// Per path: the layout edge.
+    std::vector<Index> layout_edges;
+};
+
+/// Machine-independent counts.
+struct EmbedCounters {
+    std::uint64_t searches = 0;
+    std::uint64_t expansions = 0;
+    std::uint64_t states = 0;
+    /// How often a tie made the job draw new perturbations.
+    std::uint64_t ties = 0;
+};
+
+struct EmbedResult {
+    EmbedStatus status = EmbedStatus::running;
+    BoundScope bound_scope = BoundScope::embeddings;
+    /// In target units and the path-graph metric; infinity without an embedding.
+    double cost = std::numeric_limits<double>::infinity();
+    double lower_bound = 0;
+    /// The same as exact integers of the path graph.
+    Length exact_cost = kInfiniteLength;
+    Length exact_lower_bound = 0;
+    /// (cost - lower bound) / cost, 1 without an embedding.
+    double gap = 1;
+    /// One path per layout edge; empty without an embedding.
+    WeakEmbedding weak;
+    /// Present once an embedding was realised and passed the checker.
+    std::optional<RefinedMesh> refined;
+    /// Layout edges in the order in which they were embedded.
+    std::vector<Index> insertion_order;
+    EmbedCounters counters;
+    double seconds = 0;
+    double cpu_seconds = 0;
+};
+
+/// How far one call of EmbedJob::step may go; it returns at the first limit it meets.
+struct StepBudget {
+    double milliseconds = std::numeric_limits<double>::infinity();
+    /// Node expansions.
+    std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// Embeds a layout: prepares the path graph, searches, realises the best embedding found and sends
+/// it through the checker. Stepped from outside, so that a caller can show progress, poll events
+/// and cancel between slices; the same object serves command line, worker and tests.
+///
+/// Given the same problem and options without a time limit, results, counters and events (but for
+/// their seconds) are identical on every platform, however the job is sliced.
+class EmbedJob {
+public:
+    EmbedJob(EmbeddingProblem problem, EmbedOptions options);
+    ~EmbedJob();
+    EmbedJob(EmbedJob&&) noexcept;
+    EmbedJob& operator=(EmbedJob&&) noexcept;
+
+    /// Does some work; false once the job has ended. Preparing, realising and checking are not
+    /// interrupted.
+    bool step(const StepBudget& budget = {});
+
+    /// Ends the search at the next step(); an incumbent is still realised. Idempotent.
+    void cancel();
+
+    const EmbeddingProblem& problem() const;
+    const EmbedOptions& options() const;
+    /// All events so far, oldest first.
+    const std::vector<EmbedEvent>& events() const;
+    /// The best state so far; final once step() has returned false.
+    const EmbedResult& result() const;
+    /// What went wrong, when the status is `failed` or `memory_limit`.
+    const Error& error() const;
+    /// The incumbent's paths, or those embedded so far while there is none.
+    Polylines paths() const;
+    /// Null before the prepare phase is over.
+    const PathGraph* graph() const;
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace layout_embedding

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/result.hh"
+#include "embedding/refined_mesh.hh"
+#include "layout/embedding_problem.hh"
+#include "surface/path_graph.hh"
+#include "surface/weak_embedding.hh"
+
+namespace layout_embedding {
+
+/// Turns a complete weak embedding in the barycentric path graph of the target into a refined mesh
+/// (paper, Sec. 3.3; design, Sec. 4): the strands in normal form as crossings with target edges,
+/// bigons removed, crossings spread evenly along each edge, faces cut along their chords and
+/// triangulated. Every path keeps its homotopy class. Errors: realisationFailed.
+Result<RefinedMesh> realise(const EmbeddingProblem& problem, const PathGraph& graph,
+                            const WeakEmbedding& embedding);
+
+}  // namespace layout_embedding

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/result.hh"
+#include "base/types.hh"
+#include "mesh/triangle_mesh.hh"
+
+namespace layout_embedding {
+
+/// Which element of the target a node of the path graph stands for.
+enum class NodeKind : std::uint8_t { vertex, edge_midpoint, face_centroid };
+
+struct NodeElement {
+    NodeKind kind;
+    /// Vertex, edge or face id of the target.
+    Index id;
+};
+
+/// A directed edge of the path graph.
+struct Dart {
+    Length length;
+    Index head;
+    Index twin;
+};
+
+/// The path graph T' (design, Sec. 1): the target subdivided once, a planar map on the surface
+/// whose edges paths run along. It never changes during a search.
+///
+/// Darts are numbered so that those leaving a node are consecutive and in counter-clockwise order;
+/// at a node on the target's boundary the hole lies between the last dart and the first.
+///
+/// Lengths are exact integers, made unequal by a seeded perturbation: sums are exact, shortest
+/// paths unique but for ties that a search detects. unit() converts to the target's units.
+class PathGraph {
+public:
+    struct Options {
+        std::uint64_t seed = 1;
+        /// 0 at first; raised after a tie to draw other perturbations.
+        std::uint32_t attempt = 0;
+    };
+
+    /// The barycentric subdivision: nodes are vertices, edge midpoints and face centroids
+    /// (V + E + F of them), with 2 E + 6 F edges. Euclidean lengths. O(#F).
+    static PathGraph barycentric(const TriangleMesh& target, const Options& options);
+    static PathGraph barycentric(const TriangleMesh& target) { return barycentric(target, {}); }
+
+    /// Bytes that barycentric() will take for a target of this size.
+    static std::uint64_t estimate_bytes(Index vertices, Index edges, Index faces);
+
+    Index node_count() const { return static_cast<Index>(dart_offsets_.size() - 1); }
+    Index dart_count() const { return static_cast<Index>(darts_.size()); }
+
+    const Dart& dart(Index d) const { return darts_[d]; }
+    Index head(Index d) const { return darts_[d].head; }
+    Index tail(Index d) const { return darts_[darts_[d].twin].head; }
+    Index twin(Index d) const { return darts_[d].twin; }
+    /// The first dart that leaves the node; they end before first_dart(node + 1).
+    Index first_dart(Index node) const { return dart_offsets_[node]; }
+    Index degree(Index node) const { return dart_offsets_[node + 1] - dart_offsets_[node]; }
+    /// Whether the node lies on the target's boundary.
+    bool is_boundary(Index node) const { return boundary_[node]; }
+
+    NodeElement element(Index node) const;
+    Index node_of_vertex(Index vertex) const { return vertex; }
+    Index node_of_edge(Index edge) const { return vertex_count_ + edge; }
+    Index node_of_face(Index face) const { return vertex_count_ + edge_count_ + face; }
+    const Vec3& position(Index node) const { return positions_[node]; }
+
+    /// The length of the integer 1 in the target's units.
+    double unit() const { return unit_; }
+    /// A length in the target's units, infinity for kInfiniteLength.
+    double to_units(Length length) const;
+
+private:
+    Index vertex_count_ = 0;
+    Index edge_count_ = 0;
+    std::vector<Index> dart_offsets_;  // #nodes + 1
+    std::vector<Dart> darts_;
+    std::vector<Vec3> positions_;  // per node
+    std::vector<bool> boundary_;   // per node
+    double unit_ = 1;
+};
+
+}  // namespace layout_embedding
