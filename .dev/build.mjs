@@ -8,7 +8,12 @@ const jobs = ["-j", "2"];
 
 /** npm packages from the lockfile. */
 export async function installPackages() {
-    const manifests = ["package.json", "package-lock.json", "wasm/package.json", "web/package.json"];
+    const manifests = [
+        "package.json",
+        "package-lock.json",
+        "wasm/package.json",
+        "web/package.json",
+    ];
     const hash = hashOf(manifests, `${process.version} ${process.platform} ${process.arch}`);
     await once("node_modules/.installed", hash, ["node_modules"], async () => {
         say("» npm packages");

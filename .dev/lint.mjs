@@ -7,7 +7,9 @@ import { filesBelow, main, output, root, run, say } from "./run.mjs";
 import { ensureSystemPackages } from "./system.mjs";
 
 await main(async () => {
-    const { values } = parseArgs({ options: { fix: { type: "boolean" }, tidy: { type: "boolean" } } });
+    const { values } = parseArgs({
+        options: { fix: { type: "boolean" }, tidy: { type: "boolean" } },
+    });
     await ensureSystemPackages("lint", ...(values.tidy ? ["native", "tidy", "bench"] : []));
     await installPackages();
 
@@ -36,18 +38,28 @@ await main(async () => {
     if (!values.fix) {
         // The page and the tests see the package through its built types.
         await buildPackage();
-        for (const project of ["wasm", "web", "tests/node", "tests/browser"]) {
+        for (const project of ["wasm", "web", "tests"]) {
             if (existsSync(`${root}/${project}/tsconfig.json`)) {
                 say(`» tsc ${project}`);
-                await check(process.execPath, [tool("typescript/bin/tsc"), "--noEmit", "-p", project]);
+                await check(process.execPath, [
+                    tool("typescript/bin/tsc"),
+                    "--noEmit",
+                    "-p",
+                    project,
+                ]);
             }
         }
     }
     if (values.tidy) {
-        await tidy(cpp.filter((file) => file.endsWith(".cc")), check);
+        await tidy(
+            cpp.filter((file) => file.endsWith(".cc")),
+            check,
+        );
     }
     if (failed > 0) {
-        console.error(`\n${failed} checks failed${values.fix ? "" : "; npm run format mends some"}`);
+        console.error(
+            `\n${failed} checks failed${values.fix ? "" : "; npm run format mends some"}`,
+        );
         return 1;
     }
     return 0;

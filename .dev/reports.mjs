@@ -14,9 +14,15 @@ export function readCtest(file) {
     const xml = readFileSync(file, "utf8");
     const tests = [...xml.matchAll(/<testcase\b([^>]*?)(?:\/>|>([\s\S]*?)<\/testcase>)/g)].map(
         ([, attributes, content = ""]) => {
-            const log = unescapeXml(/<system-out>([\s\S]*?)<\/system-out>/.exec(content)?.[1] ?? "");
+            const log = unescapeXml(
+                /<system-out>([\s\S]*?)<\/system-out>/.exec(content)?.[1] ?? "",
+            );
             const state = ctestState(attribute(attributes, "status"), content);
-            return { name: attribute(attributes, "name"), state, message: digest(state, log, content) };
+            return {
+                name: attribute(attributes, "name"),
+                state,
+                message: digest(state, log, content),
+            };
         },
     );
     return { tests, errors: [] };
@@ -35,7 +41,9 @@ function digest(state, log, content) {
     if (state === "passed") {
         return "";
     }
-    const lines = log.split("\n").filter((line) => !/^(Running main|Note: Google|\[[ =-])/.test(line));
+    const lines = log
+        .split("\n")
+        .filter((line) => !/^(Running main|Note: Google|\[[ =-])/.test(line));
     if (state === "skipped") {
         // GoogleTest prints "file:line: Skipped" and then the message.
         const place = lines.findIndex((line) => /: Skipped$/.test(line));

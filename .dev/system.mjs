@@ -98,7 +98,9 @@ export function emscriptenRoot() {
         process.env.EMSCRIPTEN_ROOT,
         output("em-config", ["EMSCRIPTEN_ROOT"]),
         "/usr/share/emscripten",
-    ].find((place) => place && existsSync(path.join(place, "cmake/Modules/Platform/Emscripten.cmake")));
+    ].find(
+        (place) => place && existsSync(path.join(place, "cmake/Modules/Platform/Emscripten.cmake")),
+    );
     if (!found) {
         throw new StepError("Emscripten was not found; set EMSCRIPTEN_ROOT to its folder");
     }

@@ -12,31 +12,33 @@ import { ensureSystemPackages } from "./system.mjs";
 const results = path.join(root, "build/test-results");
 
 /** The C++ tests of a preset, run by CTest. */
-function ctest(preset, selection = []) {
+function ctest(preset, ...selection) {
     return async () => {
         await buildPreset(preset);
         const report = path.join(results, `${preset}.xml`);
-        const folder = path.join("build", preset);
+        const reporting = ["--output-on-failure", "--no-tests=error", "--output-junit", report];
         const exitCode = await run(
             "ctest",
-            ["--test-dir", folder, "-j", "2", "--progress", "--output-on-failure", ...selection]
-                .concat(["--no-tests=error", "--output-junit", report]),
+            ["--test-dir", `build/${preset}`, "-j", "2", ...selection, ...reporting],
             { allowFailure: true },
         );
         return { ...readCtest(report), exitCode };
     };
 }
 
-/** A folder of Vitest tests. */
-function vitest(folder) {
+/** One of the projects in tests/vitest.config.ts. */
+function vitest(project) {
     return async () => {
         await buildPackage();
         await buildPage();
-        const report = path.join(results, `${folder}.json`);
+        const report = path.join(results, `${project}.json`);
+        const program = path.join(root, "node_modules/vitest/vitest.mjs");
+        const reporters = ["default", path.join(root, ".dev/vitest_reporter.mjs")];
         const exitCode = await run(
             process.execPath,
-            ["node_modules/vitest/vitest.mjs", "run", "--config", `tests/${folder}/vitest.config.ts`]
-                .concat(["--reporter=default", `--reporter=${root}/.dev/vitest_reporter.mjs`]),
+            [program, "run", "--config", "tests/vitest.config.ts", "--project", project].concat(
+                reporters.map((reporter) => `--reporter=${reporter}`),
+            ),
             { allowFailure: true, env: { LAYOUT_EMBEDDING_TEST_REPORT: report } },
         );
         return { ...readVitest(report), exitCode };
@@ -46,8 +48,8 @@ function vitest(folder) {
 const parts = {
     release: { name: "C++, release", run: ctest("release") },
     // With sanitizers everything is an order of magnitude slower.
-    debug: { name: "C++, sanitizers", run: ctest("debug", ["-LE", "slow"]) },
-    fuzz: { name: "C++, fuzz", run: ctest("fuzz", ["-L", "fuzz"]) },
+    debug: { name: "C++, sanitizers", run: ctest("debug", "-LE", "slow") },
+    fuzz: { name: "C++, fuzz", run: ctest("fuzz", "-L", "fuzz") },
     node: { name: "Node", run: vitest("node") },
     browser: { name: "Browser", run: vitest("browser") },
 };
@@ -81,7 +83,9 @@ function choose() {
     const { values } = parseArgs({ options: { only: { type: "string", multiple: true } } });
     for (const key of values.only ?? []) {
         if (!(key in parts)) {
-            throw new StepError(`there is no part ${key}: choose from ${Object.keys(parts).join(", ")}`);
+            throw new StepError(
+                `there is no part ${key}: choose from ${Object.keys(parts).join(", ")}`,
+            );
         }
     }
     return Object.keys(parts).filter((key) => values.only?.includes(key) ?? true);

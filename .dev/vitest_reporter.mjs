@@ -8,7 +8,9 @@ export default class SummaryReporter {
         const tests = [];
         const errors = unhandledErrors.map(describe);
         for (const module of modules) {
-            errors.push(...module.errors().map((e) => `${module.relativeModuleId}: ${describe(e)}`));
+            errors.push(
+                ...module.errors().map((e) => `${module.relativeModuleId}: ${describe(e)}`),
+            );
             for (const suite of module.children.allSuites()) {
                 errors.push(...suite.errors().map((e) => `${suite.fullName}: ${describe(e)}`));
             }
