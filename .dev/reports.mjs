@@ -1,5 +1,6 @@
 // Reads what CTest and Vitest report about their tests, and prints the summary of `npm test`.
 import { existsSync, readFileSync } from "node:fs";
+import { stripVTControlCharacters } from "node:util";
 
 /**
  * One part of the tests: `tests` holds { name, state, message } with state "passed", "failed" or
@@ -37,21 +38,30 @@ function ctestState(status, content) {
     return status === "disabled" || why.startsWith("SKIP_") ? "skipped" : "failed";
 }
 
+/** What a test's log says about its failure, or the reason it was skipped. */
 function digest(state, log, content) {
     if (state === "passed") {
         return "";
     }
     const lines = log
         .split("\n")
-        .filter((line) => !/^(Running main|Note: Google|\[[ =-])/.test(line));
+        .filter((line) => !/^(Running main|Note: Google|\[[ =-]| ?\d+ FAILED TESTS?$)/.test(line));
     if (state === "skipped") {
         // GoogleTest prints "file:line: Skipped" and then the message.
         const place = lines.findIndex((line) => /: Skipped$/.test(line));
-        return (place < 0 ? [] : lines.slice(place + 1)).join(" ").trim();
+        return lines
+            .slice(place + 1)
+            .join(" ")
+            .trim();
     }
-    const text = lines.join("\n").trim();
-    const reason = /<(?:failure|skipped)\b[^>]*message="([^"]*)"/.exec(content)?.[1] ?? "";
-    return shorten(text) || unescapeXml(reason) || "no message";
+    // A fuzzer or sanitizer talks for long before it comes to the point.
+    const point = lines.findIndex((line) => /ERROR: |runtime error: /.test(line));
+    const reason = attribute(/<failure\b([^>]*)>/.exec(content)?.[1] ?? "", "message");
+    return (
+        shorten(lines.slice(Math.max(point, 0)).join("\n")) ||
+        reason ||
+        "it crashed or was stopped before it reported anything"
+    );
 }
 
 /** The tests in a file written by vitest_reporter.mjs. */
@@ -144,7 +154,7 @@ function unescapeXml(text) {
 }
 
 function shorten(text, lines = 30) {
-    const all = text.trim().split("\n");
+    const all = stripVTControlCharacters(text).trim().split("\n");
     return all.length <= lines
         ? all.join("\n")
         : [...all.slice(0, lines), `… ${all.length - lines} more lines`].join("\n");

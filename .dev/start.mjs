@@ -15,6 +15,8 @@ await main(async () => {
     const server = await preview({
         root: `${root}/web`,
         preview: { host: "127.0.0.1", port: port ?? 4173, strictPort: port !== null },
+    }).catch((error) => {
+        throw new StepError(`the page cannot be served: ${error.message}`);
     });
     console.log(`\nThe page is at ${server.resolvedUrls.local[0]} (Ctrl+C ends)`);
 });

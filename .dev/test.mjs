@@ -26,11 +26,12 @@ function ctest(preset, ...selection) {
     };
 }
 
-/** One of the projects in tests/vitest.config.ts. */
-function vitest(project) {
+/** One of the projects in tests/vitest.config.ts, after the builds it needs. */
+function vitest(project, ...builds) {
     return async () => {
-        await buildPackage();
-        await buildPage();
+        for (const build of builds) {
+            await build();
+        }
         const report = path.join(results, `${project}.json`);
         const program = path.join(root, "node_modules/vitest/vitest.mjs");
         const reporters = ["default", path.join(root, ".dev/vitest_reporter.mjs")];
@@ -50,8 +51,8 @@ const parts = {
     // With sanitizers everything is an order of magnitude slower.
     debug: { name: "C++, sanitizers", run: ctest("debug", "-LE", "slow") },
     fuzz: { name: "C++, fuzz", run: ctest("fuzz", "-L", "fuzz") },
-    node: { name: "Node", run: vitest("node") },
-    browser: { name: "Browser", run: vitest("browser") },
+    node: { name: "Node", run: vitest("node", buildPackage) },
+    browser: { name: "Browser", run: vitest("browser", buildPackage, buildPage) },
 };
 
 await main(async () => {
