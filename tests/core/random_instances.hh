@@ -21,8 +21,8 @@ struct Instance {
 };
 
 /// `count` instances on small closed targets of genus 0 (a handful to a few hundred faces, so that
-/// paths crowd together) with layouts of 4 to 12 vertices and landmarks drawn at random: most of them
-/// have real conflicts. The same for the same seed everywhere.
+/// paths crowd together) with layouts of 4 to 12 vertices and landmarks drawn at random: most of
+/// them have real conflicts. The same for the same seed everywhere.
 std::vector<Instance> random_instances(std::uint64_t seed, int count);
 
 /// A path graph with everything a search in it needs.

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-
 #include <map>
 #include <queue>
 
@@ -85,7 +84,8 @@ TEST(PathGraph, lengths_are_euclidean_up_to_the_perturbation)
         for (Index d = 0; d < graph.dart_count(); ++d) {
             const double distance =
                 (graph.position(graph.tail(d)) - graph.position(graph.head(d))).norm();
-            EXPECT_NEAR(graph.to_units(graph.dart(d).length), distance, 0x1.0p30 * 3 * graph.unit());
+            EXPECT_NEAR(graph.to_units(graph.dart(d).length), distance,
+                        0x1.0p30 * 3 * graph.unit());
             EXPECT_EQ(graph.dart(d).length, graph.dart(graph.twin(d)).length);
         }
     }
@@ -140,8 +140,7 @@ TEST(DistanceField, bounds_are_admissible_and_consistent_at_every_radius)
                     continue;
                 }
                 for (Index d = graph.first_dart(node); d < graph.first_dart(node + 1); ++d) {
-                    EXPECT_LE(field.bound(graph.head(d)),
-                              field.bound(node) + graph.dart(d).length);
+                    EXPECT_LE(field.bound(graph.head(d)), field.bound(node) + graph.dart(d).length);
                 }
             }
             // And sharp where the field has been grown to.
@@ -275,8 +274,7 @@ TEST(Strands, undo_restores_the_cut_surface)
                 walked.strands.undo();
             }
             for (const Index e : random_order(edges, random)) {
-                if (!walked.strands.is_embedded(e) &&
-                    shortest(walked, e) != kInfiniteLength) {
+                if (!walked.strands.is_embedded(e) && shortest(walked, e) != kInfiniteLength) {
                     ASSERT_TRUE(walked.strands.insert(e, walked.search.darts()));
                 }
             }
