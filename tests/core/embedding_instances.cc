@@ -51,15 +51,9 @@ PolygonMesh tetrahedron()
 
 PolygonMesh octahedron()
 {
-    return polygons({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-                    {{0, 1, 4},
-                     {1, 2, 4},
-                     {2, 3, 4},
-                     {3, 0, 4},
-                     {1, 0, 5},
-                     {2, 1, 5},
-                     {3, 2, 5},
-                     {0, 3, 5}});
+    return polygons(
+        {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+        {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}});
 }
 
 PolygonMesh icosahedron()
@@ -87,20 +81,16 @@ PolygonMesh icosahedron()
 
 PolygonMesh cube()
 {
-    return polygons({{-1, -1, -1},
-                     {1, -1, -1},
-                     {1, 1, -1},
-                     {-1, 1, -1},
-                     {-1, -1, 1},
-                     {1, -1, 1},
-                     {1, 1, 1},
-                     {-1, 1, 1}},
-                    {{0, 3, 2, 1},
-                     {4, 5, 6, 7},
-                     {0, 1, 5, 4},
-                     {1, 2, 6, 5},
-                     {2, 3, 7, 6},
-                     {3, 0, 4, 7}});
+    return polygons(
+        {{-1, -1, -1},
+         {1, -1, -1},
+         {1, 1, -1},
+         {-1, 1, -1},
+         {-1, -1, 1},
+         {1, -1, 1},
+         {1, 1, 1},
+         {-1, 1, 1}},
+        {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
 }
 
 PolygonMesh prism(Index sides)
@@ -186,8 +176,8 @@ PolygonMesh annulus(Index around, Index across)
             positions.push_back(on_circle(i, around, 1 + j, 0.1 * j));
             if (j < across) {
                 const Index next = (i + 1) % around;
-                faces.push_back({i * stride + j, i * stride + j + 1, next * stride + j + 1,
-                                 next * stride + j});
+                faces.push_back(
+                    {i * stride + j, i * stride + j + 1, next * stride + j + 1, next * stride + j});
             }
         }
     }
@@ -250,8 +240,7 @@ PolygonMesh scrambled(const PolygonMesh& mesh, Random& random)
         scale = std::max(scale, p.norm());
     }
     for (Vec3& p : result.positions) {
-        p += 0.05 * scale *
-             Vec3(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5);
+        p += 0.05 * scale * Vec3(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5);
         p.z() *= 2;
     }
     for (Index i = 0; i < mesh.face_count(); ++i) {
@@ -369,7 +358,7 @@ std::vector<Instance> random_instances(std::uint64_t seed, int rounds)
                          scrambled(on_sphere(subdivided(subdivided(icosahedron()))), random));
     spheres.emplace_back("bipyramid50", subdivided(bipyramid(12)));
     const std::vector<std::pair<std::string, PolygonMesh>> sphere_layouts{
-        {"tetrahedron", tetrahedron()}, {"cube", cube()},       {"octahedron", octahedron()},
+        {"tetrahedron", tetrahedron()}, {"cube", cube()},         {"octahedron", octahedron()},
         {"prism5", prism(5)},           {"pyramid6", pyramid(6)}, {"disk2", disk(2)},
         {"icosahedron", icosahedron()}};
     std::vector<Instance> instances;
