@@ -48,73 +48,77 @@ Index GreedySearch::cheapest_admitted()
     return best;
 }
 
-GreedySearch::Outcome GreedySearch::finish_search(Index layout_edge,
-                                                  CutSurfaceSearch::Outcome outcome)
+GreedySearch::Outcome GreedySearch::finish_search(CutSurfaceSearch::Outcome outcome)
 {
+    const Index edge = searching_;
+    searching_ = kNone;
     if (outcome == CutSurfaceSearch::Outcome::tied) {
         return Outcome::tied;
     }
-    const bool found = outcome == CutSurfaceSearch::Outcome::found;
-    candidates_[layout_edge].cost = found ? search_.cost() : kInfiniteLength;
-    candidates_[layout_edge].darts = search_.darts();
+    candidates_[edge].cost = search_.cost();
+    candidates_[edge].darts = search_.darts();
     if (has_root_bound()) {
         return Outcome::running;
     }
     ++next_root_;
-    if (!found || lower_bound_ == kInfiniteLength) {
-        lower_bound_ = kInfiniteLength;
-    } else {
-        lower_bound_ += search_.cost();
+    const bool blocked = outcome == CutSurfaceSearch::Outcome::blocked;
+    lower_bound_ = blocked || lower_bound_ == kInfiniteLength ? kInfiniteLength
+                                                              : lower_bound_ + search_.cost();
+    return has_root_bound() ? Outcome::bounded : Outcome::running;
+}
+
+// Keeps the strand just inserted, unless a hole got to the wrong side.
+GreedySearch::Outcome GreedySearch::keep_inserted(Index layout_edge)
+{
+    if (!hole_guard_.accepts()) {
+        strands_.undo();
+        refused_[layout_edge] = true;
+        return Outcome::running;
     }
-    return Outcome::running;
+    refused_.assign(edge_count_, false);
+    embedded_cost_ += candidates_[layout_edge].cost;
+    const Index a = component(strands_.layout().tail(2 * layout_edge));
+    const Index b = component(strands_.layout().head(2 * layout_edge));
+    if (a != b) {
+        parents_[a] = b;
+        --component_count_;
+    }
+    return strands_.insertion_order().size() == edge_count_ ? Outcome::complete : Outcome::inserted;
 }
 
 GreedySearch::Outcome GreedySearch::run(std::uint64_t max_expansions)
 {
-    const std::uint64_t end = search_.expansion_count() + max_expansions < max_expansions
-                                  ? UINT64_MAX
-                                  : search_.expansion_count() + max_expansions;
-    while (strands_.insertion_order().size() < edge_count_) {
-        if (searching_ == kNone && !has_root_bound()) {
-            searching_ = next_root_;
-            search_.begin(searching_);
+    for (;;) {
+        if (searching_ != kNone) {
+            const std::uint64_t before = search_.expansion_count();
+            const auto outcome = search_.run(max_expansions);
+            max_expansions -= search_.expansion_count() - before;
+            if (outcome == CutSurfaceSearch::Outcome::running) {
+                return Outcome::running;
+            }
+            const Outcome next = finish_search(outcome);
+            if (next != Outcome::running) {
+                return next;
+            }
         }
-        if (searching_ == kNone) {
+        if (!has_root_bound()) {
+            searching_ = next_root_;
+        } else {
             const Index edge = cheapest_admitted();
             if (edge == kNone) {
                 return Outcome::failed;
             }
             if (strands_.insert(edge, candidates_[edge].darts)) {
-                if (!hole_guard_.accepts()) {
-                    strands_.undo();
-                    refused_[edge] = true;
-                    continue;
-                }
-                refused_.assign(edge_count_, false);
-                embedded_cost_ += candidates_[edge].cost;
-                const Layout& layout = strands_.layout();
-                const Index a = component(layout.tail(2 * edge));
-                const Index b = component(layout.head(2 * edge));
-                if (a != b) {
-                    parents_[a] = b;
-                    --component_count_;
+                const Outcome next = keep_inserted(edge);
+                if (next != Outcome::running) {
+                    return next;
                 }
                 continue;
             }
             searching_ = edge;
-            search_.begin(edge);
         }
-        const auto outcome = search_.run(end - search_.expansion_count());
-        if (outcome == CutSurfaceSearch::Outcome::running) {
-            return Outcome::running;
-        }
-        const Index edge = searching_;
-        searching_ = kNone;
-        if (finish_search(edge, outcome) == Outcome::tied) {
-            return Outcome::tied;
-        }
+        search_.begin(searching_);
     }
-    return Outcome::complete;
 }
 
 }  // namespace layout_embedding

@@ -22,6 +22,10 @@ class GreedySearch {
 public:
     enum class Outcome {
         running,
+        /// lower_bound() has just become complete.
+        bounded,
+        /// One more edge is embedded, more are to come.
+        inserted,
         /// All edges are embedded.
         complete,
         /// No admissible edge is left; some are embedded.
@@ -52,7 +56,8 @@ private:
     Index component(Index layout_vertex);
     bool is_admitted(Index layout_edge);
     Index cheapest_admitted();
-    Outcome finish_search(Index layout_edge, CutSurfaceSearch::Outcome outcome);
+    Outcome finish_search(CutSurfaceSearch::Outcome outcome);
+    Outcome keep_inserted(Index layout_edge);
 
     Strands& strands_;
     CutSurfaceSearch& search_;

@@ -17,7 +17,7 @@ CutSurfaceSearch::CutSurfaceSearch(const Strands& strands, DistanceFields& field
 void CutSurfaceSearch::begin(Index layout_edge)
 {
     const Layout& layout = strands_.layout();
-    layout_edge_ = layout_edge;
+    ++search_count_;
     start_ = strands_.landmark_node(layout.tail(2 * layout_edge));
     goal_ = strands_.landmark_node(layout.head(2 * layout_edge));
     goal_sector_ = strands_.sector(2 * layout_edge + 1);

@@ -43,7 +43,9 @@ public:
     Length cost() const { return goal_distance_; }
     /// Every walk for the edge is at least this long; grows while the search runs.
     Length lower_bound() const { return lower_bound_; }
-    /// States expanded by all searches of this object.
+    /// Searches begun by this object.
+    std::uint64_t search_count() const { return search_count_; }
+    /// States expanded by all of them.
     std::uint64_t expansion_count() const { return expansion_count_; }
 
 private:
@@ -69,7 +71,6 @@ private:
     const Strands& strands_;
     DistanceFields& fields_;
     const DistanceField* field_ = nullptr;
-    Index layout_edge_ = kNone;
     Index start_ = kNone;
     Index goal_ = kNone;
     Index goal_sector_ = 0;
@@ -79,6 +80,7 @@ private:
     bool goal_tied_ = false;
     Length lower_bound_ = 0;
     std::uint32_t number_ = 0;
+    std::uint64_t search_count_ = 0;
     std::uint64_t expansion_count_ = 0;
     std::vector<Label> labels_;  // per state
     std::vector<QueueItem> queue_;
