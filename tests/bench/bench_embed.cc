@@ -15,6 +15,7 @@
 
 #include "apps/embed_job.hh"
 #include "mesh/mesh_reader.hh"
+#include "mesh/validation.hh"
 
 namespace layout_embedding {
 namespace {
@@ -94,13 +95,12 @@ Result<EmbeddingProblem> load(const char* layout_path, const char* target_path)
     if (!layout) {
         return layout.error();
     }
-    auto target = TriangleMesh::from_polygons(*target_mesh, target_path);
-    if (!target) {
-        return target.error();
+    if (Status usable = check_surface(*target_mesh, SurfaceKind::target, target_path); !usable) {
+        return usable.error();
     }
     const std::vector<Index> landmarks{std::istream_iterator<Index>(std::cin), {}};
     return make_problem(std::make_shared<Layout>(std::move(*layout)),
-                        std::make_shared<TriangleMesh>(std::move(*target)), landmarks);
+                        std::make_shared<TriangleMesh>(*target_mesh), landmarks);
 }
 
 /// Seconds from each phase event to the next, as members of a JSON object.
