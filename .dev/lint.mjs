@@ -10,7 +10,7 @@ await main(async () => {
     const { values } = parseArgs({
         options: { fix: { type: "boolean" }, tidy: { type: "boolean" } },
     });
-    await ensureSystemPackages("lint", ...(values.tidy ? ["native", "tidy", "bench"] : []));
+    await ensureSystemPackages("lint", ...(values.tidy ? ["native", "tidy"] : []));
     await installPackages();
 
     const cpp = ["core", "wasm", "tests"].flatMap(filesBelow).filter((f) => /\.(hh|cc)$/.test(f));

@@ -31,7 +31,6 @@ const needs = {
         chromium: "chromium",
         "fonts-dejavu-core": null,
     },
-    bench: { "libbenchmark-dev": null },
     lint: { "clang-format": "clang-format" },
     tidy: { "clang-tidy": "clang-tidy", clang: "clang++", "libgtest-dev": null },
 };

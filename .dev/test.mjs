@@ -57,7 +57,7 @@ const parts = {
 
 await main(async () => {
     const chosen = choose();
-    await ensureSystemPackages("native", "wasm", "test", "bench");
+    await ensureSystemPackages("native", "wasm", "test");
     await installPackages();
     rmSync(results, { recursive: true, force: true });
     mkdirSync(results, { recursive: true });
