@@ -298,3 +298,13 @@ export interface EmbeddingSession {
     /** Frees everything; the session cannot be used any more. */
     dispose(): Promise<void>;
 }
+
+/** What embed() embeds where. */
+export interface EmbedProblem {
+    layout: MeshInput;
+    target: MeshInput;
+    /** Default: by proximity. */
+    landmarks?: LandmarkInput;
+}
+
+export interface EmbedOptions extends SolveOptions, LoadOptions {}
