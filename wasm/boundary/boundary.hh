@@ -153,7 +153,8 @@ Value guarded(Value failed, Body&& body)
     try {
         return body();
     } catch (const std::bad_alloc&) {
-        set_error(make_error(ErrorCode::memoryLimit, "the memory of the WebAssembly module is full"));
+        set_error(
+            make_error(ErrorCode::memoryLimit, "the memory of the WebAssembly module is full"));
     } catch (const std::length_error&) {
         set_error(make_error(ErrorCode::memoryLimit,
                              "an array larger than WebAssembly can address was needed"));
@@ -166,6 +167,9 @@ Value guarded(Value failed, Body&& body)
 }
 
 /// The bytes of an argument.
-inline std::string_view text_argument(const char* data, std::size_t size) { return {data, size}; }
+inline std::string_view text_argument(const char* data, std::size_t size)
+{
+    return {data, size};
+}
 
 }  // namespace layout_embedding::boundary

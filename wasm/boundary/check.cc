@@ -15,7 +15,10 @@ std::vector<std::vector<T>> unflattened(const T* flat, const Index* offsets, std
     return lists;
 }
 
-CheckObject& check_object(std::uint32_t handle) { return handles<CheckObject>().get(handle); }
+CheckObject& check_object(std::uint32_t handle)
+{
+    return handles<CheckObject>().get(handle);
+}
 
 }  // namespace
 

@@ -1,10 +1,10 @@
 // Jobs: created, stepped from outside, asked for events and results, cancelled, destroyed.
-#include "apps/embed_job.hh"
-
 #include <algorithm>
 #include <limits>
 
+#include "apps/embed_job.hh"
 #include "boundary/boundary.hh"
+#include "embedding/check_input.hh"
 
 namespace layout_embedding::boundary {
 
@@ -13,7 +13,10 @@ namespace {
 /// WebAssembly addresses 4 GiB; some of it is stack, fragments and the inputs themselves.
 constexpr std::uint64_t kAddressableBytes = 3'800'000'000;
 
-JobObject& job_object(std::uint32_t handle) { return handles<JobObject>().get(handle); }
+JobObject& job_object(std::uint32_t handle)
+{
+    return handles<JobObject>().get(handle);
+}
 
 std::vector<double> as_numbers(const EmbedEvent& event)
 {
@@ -24,22 +27,6 @@ std::vector<double> as_numbers(const EmbedEvent& event)
             event.cost,
             event.lower_bound,
             event.progress};
-}
-
-/// The target vertices that a node of the path graph is the midpoint of.
-WeakPoint weak_point(const TriangleMesh& target, NodeElement element)
-{
-    switch (element.kind) {
-        case NodeKind::vertex:
-            return {element.id, kNone, kNone};
-        case NodeKind::edge_midpoint: {
-            const Index h = target.halfedge(element.id);
-            return {target.tail(h), target.head(h), kNone};
-        }
-        case NodeKind::face_centroid:
-            return target.face(element.id);
-    }
-    return {kNone, kNone, kNone};
 }
 
 /// Offsets of a list of lists.
@@ -65,23 +52,11 @@ std::vector<T> flattened(const std::vector<std::vector<T>>& lists)
 
 std::vector<std::vector<WeakPoint>> weak_paths(const EmbedJob& job)
 {
-    std::vector<std::vector<WeakPoint>> paths;
     const PathGraph* graph = job.graph();
     if (graph == nullptr) {
-        return paths;
+        return {};
     }
-    const TriangleMesh& target = *job.problem().target;
-    for (const WeakPath& weak : job.result().weak.paths) {
-        std::vector<WeakPoint>& path = paths.emplace_back();
-        if (weak.darts.empty()) {
-            continue;
-        }
-        path.push_back(weak_point(target, graph->element(graph->tail(weak.darts.front()))));
-        for (const Index dart : weak.darts) {
-            path.push_back(weak_point(target, graph->element(graph->head(dart))));
-        }
-    }
-    return paths;
+    return weak_points(*job.problem().target, *graph, job.result().weak);
 }
 
 /// Runs `body` on the refined mesh; false, with no error set, where there is none.
@@ -103,10 +78,10 @@ std::uint32_t with_refined(std::uint32_t handle, Body body)
 /// Makes a job from a layout, a target and `landmark_count` target vertex ids; they are checked
 /// together. Returns its handle.
 BOUNDARY_EXPORT(boundary_job_create)
-std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target, const Index* landmarks,
-                                  std::size_t landmark_count, std::uint32_t algorithm, double gap,
-                                  std::uint64_t seed, double time_limit, std::uint64_t work_limit,
-                                  double memory_limit)
+std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
+                                  const Index* landmarks, std::size_t landmark_count,
+                                  std::uint32_t algorithm, double gap, std::uint64_t seed,
+                                  double time_limit, std::uint64_t work_limit, double memory_limit)
 {
     return guarded(0U, [&] {
         auto problem = make_problem(handles<LayoutObject>().get(layout).layout,
@@ -167,8 +142,8 @@ std::uint32_t boundary_job_events(std::uint32_t job, std::uint32_t first)
     });
 }
 
-/// Views the state as 11 doubles: status, bound scope, cost, lower bound, gap, seconds, CPU
-/// seconds, searches, expansions, states, ties.
+/// Views the state as 12 doubles: status, bound scope, cost, lower bound, gap, seconds, CPU
+/// seconds, searches, expansions, field nodes, insertions, ties.
 BOUNDARY_EXPORT(boundary_job_state) std::uint32_t boundary_job_state(std::uint32_t job)
 {
     return guarded(0U, [&] {
@@ -178,7 +153,8 @@ BOUNDARY_EXPORT(boundary_job_state) std::uint32_t boundary_job_state(std::uint32
             result.cost, result.lower_bound, result.gap, result.seconds, result.cpu_seconds,
             static_cast<double>(result.counters.searches),
             static_cast<double>(result.counters.expansions),
-            static_cast<double>(result.counters.states),
+            static_cast<double>(result.counters.field_nodes),
+            static_cast<double>(result.counters.insertions),
             static_cast<double>(result.counters.ties)});
         return 1U;
     });
@@ -229,7 +205,8 @@ BOUNDARY_EXPORT(boundary_job_path_points) std::uint32_t boundary_job_path_points
     });
 }
 
-BOUNDARY_EXPORT(boundary_job_path_offsets) std::uint32_t boundary_job_path_offsets(std::uint32_t job)
+BOUNDARY_EXPORT(boundary_job_path_offsets)
+std::uint32_t boundary_job_path_offsets(std::uint32_t job)
 {
     return guarded(0U, [&] {
         set_owned_view(job_object(job).job.paths().offsets);
@@ -255,7 +232,8 @@ BOUNDARY_EXPORT(boundary_job_weak_points) std::uint32_t boundary_job_weak_points
     });
 }
 
-BOUNDARY_EXPORT(boundary_job_weak_offsets) std::uint32_t boundary_job_weak_offsets(std::uint32_t job)
+BOUNDARY_EXPORT(boundary_job_weak_offsets)
+std::uint32_t boundary_job_weak_offsets(std::uint32_t job)
 {
     return guarded(0U, [&] {
         set_owned_view(offsets_of(weak_paths(job_object(job).job)));

@@ -19,7 +19,10 @@ std::uint32_t next_handle()
     return ++last;
 }
 
-void set_error(Error error) { last_error = std::move(error); }
+void set_error(Error error)
+{
+    last_error = std::move(error);
+}
 
 void set_view(const void* data, std::size_t count)
 {
@@ -27,7 +30,10 @@ void set_view(const void* data, std::size_t count)
     view_count = count;
 }
 
-void set_view(std::string_view text) { set_view(text.data(), text.size()); }
+void set_view(std::string_view text)
+{
+    set_view(text.data(), text.size());
+}
 
 std::vector<std::byte>& view_storage()
 {
@@ -63,11 +69,20 @@ BOUNDARY_EXPORT(boundary_allocate) void* boundary_allocate(std::size_t bytes)
     return std::malloc(bytes > 0 ? bytes : 1);
 }
 
-BOUNDARY_EXPORT(boundary_release) void boundary_release(void* memory) { std::free(memory); }
+BOUNDARY_EXPORT(boundary_release) void boundary_release(void* memory)
+{
+    std::free(memory);
+}
 
-BOUNDARY_EXPORT(boundary_view_data) const void* boundary_view_data() { return view_data; }
+BOUNDARY_EXPORT(boundary_view_data) const void* boundary_view_data()
+{
+    return view_data;
+}
 /// Number of elements (not bytes) of the view.
-BOUNDARY_EXPORT(boundary_view_count) std::size_t boundary_view_count() { return view_count; }
+BOUNDARY_EXPORT(boundary_view_count) std::size_t boundary_view_count()
+{
+    return view_count;
+}
 
 /// Frees an object of any type; an unknown handle is ignored.
 BOUNDARY_EXPORT(boundary_destroy) void boundary_destroy(std::uint32_t handle)

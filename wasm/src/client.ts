@@ -12,6 +12,7 @@ import type {
     EmbedResult,
     ExportedFiles,
     LandmarkInput,
+    LandmarkOptions,
     LandmarksInfo,
     LayoutInfo,
     LoadOptions,
@@ -201,8 +202,8 @@ class WorkerSession implements EmbeddingSession {
         return this.call("loadTarget", [input, options]) as Promise<TargetInfo>;
     }
 
-    setLandmarks(input: LandmarkInput): Promise<LandmarksInfo> {
-        return this.call("setLandmarks", [input]) as Promise<LandmarksInfo>;
+    setLandmarks(input: LandmarkInput, options: LandmarkOptions = {}): Promise<LandmarksInfo> {
+        return this.call("setLandmarks", [input, options]) as Promise<LandmarksInfo>;
     }
 
     landmarksByProximity(): Promise<LandmarksInfo> {

@@ -1,7 +1,7 @@
 // The two JSON files of an embedding: what is in them, writing them. README.md describes them for
-// users; src/cli/read_output.ts reads them back.
+// users; src/cli/read_embedding.ts reads them back.
 import type { JobOptions } from "./job.js";
-import type { EmbedResult, ExportedFiles, RefinedMesh, WeakPoint } from "./types.js";
+import type { EmbedCounters, EmbedResult, ExportedFiles, RefinedMesh, WeakPoint } from "./types.js";
 
 /** The version of the file formats; it changes when old readers could misread them. */
 export const fileVersion = 1;
@@ -52,7 +52,7 @@ export interface EmbeddingDocument {
     /** Per triangle of refined.obj: the layout face, null outside all of them. */
     patches: (number | null)[];
     insertionOrder: number[];
-    counters: { searches: number; expansions: number; states: number; ties: number };
+    counters: EmbedCounters;
     events: {
         kind: string;
         phase: string;

@@ -126,7 +126,7 @@ export async function runJob(
         throw new LayoutError("invalidOption", "a slice is empty; give it some time and work.");
     }
     let seen = 0;
-    for (let running = true; running; ) {
+    for (let running = true; running;) {
         if (options.signal?.aborted === true) {
             core.call("boundary_job_cancel", job);
         }
@@ -153,8 +153,7 @@ export function readResult(
         core.viewedDoubles() as unknown as number[];
     const name = statuses[status ?? 0] ?? "failed";
     if (name === "failed" || name === "running") {
-        core.call("boundary_job_error", job);
-        throw core.lastError();
+        throw jobError(core, job);
     }
     core.call("boundary_job_exact", job);
     const [exactCost, exactLowerBound] = core.viewedLongs();
@@ -177,12 +176,20 @@ export function readResult(
         counters: {
             searches: counts[0] ?? 0,
             expansions: counts[1] ?? 0,
-            states: counts[2] ?? 0,
-            ties: counts[3] ?? 0,
+            fieldNodes: counts[2] ?? 0,
+            insertions: counts[3] ?? 0,
+            ties: counts[4] ?? 0,
         },
         seconds: seconds ?? 0,
         cpuSeconds: cpuSeconds ?? 0,
+        message: name === "memoryLimit" ? jobError(core, job).message : null,
     };
+}
+
+/** What stopped the job. */
+function jobError(core: Core, job: Handle): LayoutError {
+    core.call("boundary_job_error", job);
+    return core.lastError();
 }
 
 /** Reports the last of the events from `seen` on, if there are any; the number of events now. */
@@ -196,7 +203,9 @@ function reportProgress(
     const last = events.at(-1);
     if (last !== undefined) {
         const { kind: _, ...state } = last;
-        const moved = events.some((event) => event.kind === "incumbent" || event.kind === "progress");
+        const moved = events.some(
+            (event) => event.kind === "incumbent" || event.kind === "progress",
+        );
         onProgress({ ...state, paths: moved ? readPaths(core, job) : null });
     }
     return seen + events.length;

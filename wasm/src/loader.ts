@@ -5,13 +5,7 @@ import { javaScriptError, type LayoutError } from "./errors.js";
 
 /** Where core.wasm comes from: an address, its bytes, a response to fetch(), or compiled. */
 export type WasmSource =
-    | string
-    | URL
-    | ArrayBuffer
-    | Uint8Array
-    | Response
-    | WebAssembly.Module
-    | Promise<Response>;
+    string | URL | ArrayBuffer | Uint8Array | Response | WebAssembly.Module | Promise<Response>;
 
 export interface InitOptions {
     /** Default: `core.wasm` beside this file. */
@@ -168,7 +162,10 @@ function systemInterface(buffer: () => ArrayBuffer): WebAssembly.Imports {
 }
 
 /** Other versions of Emscripten may import a few functions more, none of which can matter here. */
-function tolerant<T extends object>(functions: T, fallback: () => number): WebAssembly.ModuleImports {
+function tolerant<T extends object>(
+    functions: T,
+    fallback: () => number,
+): WebAssembly.ModuleImports {
     return new Proxy(functions, {
         get: (target, name) => Reflect.get(target, name) ?? fallback,
     }) as unknown as WebAssembly.ModuleImports;

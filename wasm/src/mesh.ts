@@ -47,7 +47,8 @@ export function readMesh(
     }
 }
 
-function readFile(core: Core, subject: string, input: MeshFile): Handle {
+/** A mesh from the bytes of a file, exactly as it stands there. */
+export function readFile(core: Core, subject: string, input: MeshFile): Handle {
     const bytes = byteArray(input.bytes, subject);
     const format = formats.indexOf(input.format ?? "detect");
     if (format < 0) {
@@ -112,7 +113,9 @@ function offsetArray(
     const offsets = idArray(given, (place, value) =>
         wrong(`offset ${String(place)} is ${String(value)}, which is no place among the corners`),
     );
-    const rises = offsets.every((offset, place) => place === 0 || offset >= (offsets[place - 1] ?? 0));
+    const rises = offsets.every(
+        (offset, place) => place === 0 || offset >= (offsets[place - 1] ?? 0),
+    );
     if (offsets[0] !== 0 || offsets.at(-1) !== cornerCount || !rises) {
         throw wrong("the offsets don't rise from 0 to the number of corners");
     }
@@ -121,6 +124,16 @@ function offsetArray(
 
 function isList(value: unknown): value is ArrayLike<number> {
     return typeof value === "object" && value !== null && "length" in value;
+}
+
+/** Copies of a mesh's arrays. */
+export function arraysOf(core: Core, mesh: Handle) {
+    core.call("boundary_mesh_positions", mesh);
+    const positions = core.viewedDoubles(3);
+    core.call("boundary_mesh_corners", mesh);
+    const corners = core.viewedIds();
+    core.call("boundary_mesh_offsets", mesh);
+    return { positions, corners, offsets: core.viewedIds() };
 }
 
 /** The numbers as 32-bit ids; `refuse` makes the error for one that isn't. */
@@ -148,5 +161,8 @@ export function byteArray(
     if (bytes instanceof ArrayBuffer) {
         return new Uint8Array(bytes);
     }
-    throw javaScriptError("invalidInput", `${subject}: bytes are neither Uint8Array nor ArrayBuffer`);
+    throw javaScriptError(
+        "invalidInput",
+        `${subject}: bytes are neither Uint8Array nor ArrayBuffer`,
+    );
 }

@@ -6,7 +6,11 @@ export type SessionMethod = keyof EmbeddingSession;
 
 export type Request =
     /** Loads the module (from `wasm`, where given); must come first. */
-    | { kind: "init"; id: number; wasm: string | ArrayBuffer | Uint8Array | WebAssembly.Module | null }
+    | {
+          kind: "init";
+          id: number;
+          wasm: string | ArrayBuffer | Uint8Array | WebAssembly.Module | null;
+      }
     /** Makes a session, known by the request's id from then on. */
     | { kind: "create"; id: number }
     | { kind: "call"; id: number; session: number; method: SessionMethod; args: unknown[] }

@@ -3,16 +3,23 @@
 import { Core, type Handle } from "./core.js";
 import { javaScriptError, LayoutError } from "./errors.js";
 import { checkClaim } from "./claim.js";
-import { exportedFiles, type InputRecord } from "./files.js";
+import {
+    embeddingDocument,
+    exportedFiles,
+    type EmbeddingDocument,
+    type Exportable,
+    type InputRecord,
+} from "./files.js";
 import { createJob, jobOptions, readResult, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
-import { byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
+import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
 import type {
     EmbeddingClaim,
     EmbeddingSession,
     EmbedResult,
     ExportedFiles,
     LandmarkInput,
+    LandmarkOptions,
     LandmarksInfo,
     LayoutInfo,
     LoadOptions,
@@ -61,7 +68,11 @@ export class Session implements EmbeddingSession {
     async loadLayout(input: MeshInput, options: LoadOptions = {}): Promise<LayoutInfo> {
         const { core } = this;
         const [loaded, common] = await this.load("layout", input, options);
-        const info = { ...common, ...arraysOf(core, loaded.mesh), edges: this.edgesOf(loaded) };
+        const info = {
+            ...common,
+            ...arraysOf(core, loaded.mesh.handle),
+            edges: this.edgesOf(loaded),
+        };
         this.forget(this.layout);
         this.layout = loaded;
         this.landmarks = null;
@@ -70,17 +81,20 @@ export class Session implements EmbeddingSession {
 
     async loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
         const [loaded, common] = await this.load("target", input, options);
-        const { positions, corners } = arraysOf(this.core, loaded.mesh);
+        const { positions, corners } = arraysOf(this.core, loaded.mesh.handle);
         this.forget(this.target);
         this.target = loaded;
         this.landmarks = null;
         return { ...common, positions, corners };
     }
 
-    async setLandmarks(input: LandmarkInput): Promise<LandmarksInfo> {
+    async setLandmarks(
+        input: LandmarkInput,
+        options: LandmarkOptions = {},
+    ): Promise<LandmarksInfo> {
         const notes: string[] = [];
         const record: InputRecord = { role: "landmarks", name: null, sha256: null };
-        let given: Uint32Array;
+        let given: Uint32Array<ArrayBuffer>;
         if ("bytes" in input) {
             const bytes = byteArray(input.bytes, "the landmark file");
             record.name = input.name ?? null;
@@ -90,7 +104,8 @@ export class Session implements EmbeddingSession {
             given = landmarkIds(input);
         }
         const { layout, target } = this.inputs();
-        const landmarks = throughRepairs(given, layout, target);
+        const landmarks =
+            options.numbering === "loaded" ? given : throughRepairs(given, layout, target);
         this.confirm(layout, target, landmarks);
         this.landmarks = { landmarks, notes, record };
         return { landmarks: landmarks.slice(), notes: [...notes] };
@@ -100,7 +115,11 @@ export class Session implements EmbeddingSession {
         const { core } = this;
         const { layout, target } = this.inputs();
         const notes: string[] = [];
-        const handle = core.call("boundary_landmarks_by_proximity", layout.mesh.handle, target.surface);
+        const handle = core.call(
+            "boundary_landmarks_by_proximity",
+            layout.mesh.handle,
+            target.surface,
+        );
         const landmarks = this.takeLandmarks(handle, notes);
         this.confirm(layout, target, landmarks);
         const record: InputRecord = { role: "landmarks", name: null, sha256: null };
@@ -142,23 +161,18 @@ export class Session implements EmbeddingSession {
     }
 
     async exportFiles(): Promise<ExportedFiles> {
-        this.assertAlive();
         const { core, solved } = this;
+        const exportable = this.exportable();
         if (solved === null || !core.test("boundary_job_write_obj", solved.job)) {
-            throw javaScriptError("nothingToExport", "nothing has been embedded in this session");
+            throw javaScriptError("nothingToExport", "no embedding was found in this session");
         }
-        const files: ExportedFiles = {
-            "refined.obj": core.viewedBytes(),
-            ...exportedFiles({
-                // Read again, since the caller may have changed what solve() returned.
-                result: readResult(core, solved.job, solved.layoutEdges, solved.landmarks),
-                options: solved.options,
-                inputs: solved.inputs,
-                notes: solved.notes,
-                version: core.version(),
-            }),
-        };
-        return Promise.resolve(files);
+        const obj = core.viewedBytes();
+        return Promise.resolve({ "refined.obj": obj, ...exportedFiles(exportable) });
+    }
+
+    /** What embedding.json says of the last solve(), also where no embedding was found. */
+    embeddingDocument(): EmbeddingDocument {
+        return embeddingDocument(this.exportable());
     }
 
     async check(claim: EmbeddingClaim): Promise<Violation[]> {
@@ -186,6 +200,18 @@ export class Session implements EmbeddingSession {
             this.forget(this.target);
         }
         return Promise.resolve();
+    }
+
+    private exportable(): Exportable {
+        this.assertAlive();
+        const { core, solved } = this;
+        if (solved === null) {
+            throw javaScriptError("nothingToExport", "nothing has been solved in this session");
+        }
+        const { job, layoutEdges, landmarks, options, inputs, notes } = solved;
+        // Read again, since the caller may have changed what solve() returned.
+        const result = readResult(core, job, layoutEdges, landmarks);
+        return { result, options, inputs, notes, version: core.version() };
     }
 
     /** Reads, repairs and validates a mesh; leaves nothing behind if that fails. */
@@ -276,11 +302,7 @@ export class Session implements EmbeddingSession {
     }
 
     /** Throws unless layout, target and landmarks fit together. */
-    private confirm(
-        layout: Loaded,
-        target: Loaded,
-        landmarks: Uint32Array,
-    ): void {
+    private confirm(layout: Loaded, target: Loaded, landmarks: Uint32Array): void {
         const { core } = this;
         core.withCopies((copy) =>
             core.call(
@@ -313,15 +335,6 @@ export class Session implements EmbeddingSession {
             throw javaScriptError("disposed", "the session cannot be used any more");
         }
     }
-}
-
-function arraysOf(core: Core, mesh: LoadedMesh) {
-    core.call("boundary_mesh_positions", mesh.handle);
-    const positions = core.viewedDoubles(3);
-    core.call("boundary_mesh_corners", mesh.handle);
-    const corners = core.viewedIds();
-    core.call("boundary_mesh_offsets", mesh.handle);
-    return { positions, corners, offsets: core.viewedIds() };
 }
 
 function landmarkIds(input: ArrayLike<number>): Uint32Array<ArrayBuffer> {

@@ -86,6 +86,14 @@ export interface TargetInfo {
     notes: Notes;
 }
 
+export interface LandmarkOptions {
+    /**
+     * Whose ids the landmarks are, which matters after a repair: those of the target as it was
+     * given (the default), or as it was loaded (TargetInfo.positions).
+     */
+    numbering?: "given" | "loaded";
+}
+
 export interface LandmarksInfo {
     /** Target vertex id (after a repair) per layout vertex. */
     landmarks: Uint32Array;
@@ -182,9 +190,15 @@ export interface EmbedEvent {
 
 /** Machine-independent counts. */
 export interface EmbedCounters {
+    /** Shortest-path searches in the cut surface. */
     searches: number;
+    /** States of the cut surface expanded by them; the unit of work. */
     expansions: number;
-    states: number;
+    /** Nodes settled by the distance fields that guide them. */
+    fieldNodes: number;
+    /** Paths inserted into embeddings. */
+    insertions: number;
+    /** How often a tie made the job draw new perturbations. */
     ties: number;
 }
 
@@ -250,6 +264,8 @@ export interface EmbedResult {
     counters: EmbedCounters;
     seconds: number;
     cpuSeconds: number;
+    /** One sentence where the status does not say it all: what did not fit into memory. */
+    message: string | null;
 }
 
 /** The files of a finished embedding; their formats are described in the README. */
@@ -280,10 +296,10 @@ export interface EmbeddingSession {
     /** Reads a target. A failed load changes nothing; a successful one forgets the landmarks. */
     loadTarget(input: MeshInput, options?: LoadOptions): Promise<TargetInfo>;
     /**
-     * Sets the landmarks and confirms that layout, target and landmarks fit together. Ids are those
-     * of the target as it was given, also after a repair. A failure changes nothing.
+     * Sets the landmarks and confirms that layout, target and landmarks fit together. A failure
+     * changes nothing.
      */
-    setLandmarks(input: LandmarkInput): Promise<LandmarksInfo>;
+    setLandmarks(input: LandmarkInput, options?: LandmarkOptions): Promise<LandmarksInfo>;
     /**
      * Sets the landmarks to the one-to-one assignment of least total squared distance, for a layout
      * that lies in the frame of the target.
