@@ -5,6 +5,7 @@
 #include "apps/embed_job.hh"
 #include "boundary/boundary.hh"
 #include "embedding/check_input.hh"
+#include "embedding/refined_obj.hh"
 
 namespace layout_embedding::boundary {
 
@@ -276,6 +277,13 @@ BOUNDARY_EXPORT(boundary_job_refined_triangle_patches)
 std::uint32_t boundary_job_refined_triangle_patches(std::uint32_t job)
 {
     return with_refined(job, [](const RefinedMesh& mesh) { set_view(mesh.triangle_patches); });
+}
+
+/// Views the refined mesh as OBJ, with patches as groups and chains as lines.
+BOUNDARY_EXPORT(boundary_job_write_obj) std::uint32_t boundary_job_write_obj(std::uint32_t job)
+{
+    return with_refined(job,
+                        [](const RefinedMesh& mesh) { set_owned_view(write_refined_obj(mesh)); });
 }
 
 BOUNDARY_EXPORT(boundary_job_chain_vertices)

@@ -1,6 +1,8 @@
 // Meshes, layouts, targets and landmarks: read, repaired, validated, looked at.
 #include "boundary/boundary.hh"
 #include "layout/embedding_problem.hh"
+#include "layout/landmark_reader.hh"
+#include "layout/proximity.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
 
@@ -165,6 +167,60 @@ BOUNDARY_EXPORT(boundary_target_counts) std::uint32_t boundary_target_counts(std
                     object.boundary_loop_count());
         return 1U;
     });
+}
+
+/// Reads landmarks from the bytes of a file. `target_mesh` is the mesh that positions in the file
+/// are compared with, 0 for none. Returns landmarks.
+BOUNDARY_EXPORT(boundary_landmarks_read)
+std::uint32_t boundary_landmarks_read(const char* bytes, std::size_t size, const char* subject,
+                                      std::size_t subject_size, std::uint32_t target_mesh)
+{
+    return guarded(0U, [&] {
+        std::span<const Vec3> positions;
+        if (target_mesh != 0) {
+            positions = mesh_object(target_mesh).mesh.positions;
+        }
+        return add_or_fail<LandmarksObject>(
+            read_landmarks({bytes, size}, {subject, subject_size}, positions),
+            +[](Landmarks landmarks) {
+                return LandmarksObject{std::move(landmarks.vertices), std::move(landmarks.notes)};
+            });
+    });
+}
+
+/// Assigns target vertices to the vertices of a layout, made from `layout_mesh`, by least total
+/// squared distance. Returns landmarks.
+BOUNDARY_EXPORT(boundary_landmarks_by_proximity)
+std::uint32_t boundary_landmarks_by_proximity(std::uint32_t layout, std::uint32_t layout_mesh,
+                                              std::uint32_t target)
+{
+    return guarded(0U, [&] {
+        return add_or_fail<LandmarksObject>(
+            landmarks_by_proximity(*handles<LayoutObject>().get(layout).layout,
+                                   mesh_object(layout_mesh).mesh.positions,
+                                   *handles<TargetObject>().get(target).target),
+            +[](std::vector<Index> landmarks) {
+                return LandmarksObject{std::move(landmarks), {}};
+            });
+    });
+}
+
+/// Views the target vertex of each landmark.
+BOUNDARY_EXPORT(boundary_landmarks_ids)
+std::uint32_t boundary_landmarks_ids(std::uint32_t landmarks)
+{
+    return guarded(0U, [&] {
+        set_view(handles<LandmarksObject>().get(landmarks).landmarks);
+        return 1U;
+    });
+}
+
+/// Views a note on landmarks; 0 beyond the last one.
+BOUNDARY_EXPORT(boundary_landmarks_note)
+std::uint32_t boundary_landmarks_note(std::uint32_t landmarks, std::size_t place)
+{
+    return guarded(
+        0U, [&] { return view_note(handles<LandmarksObject>().get(landmarks).notes, place); });
 }
 
 /// Confirms that layout, target and landmarks fit together.

@@ -283,6 +283,8 @@ export class Session implements EmbeddingSession {
                 bytes.length,
                 copy(subject),
                 subject.length,
+                // After a repair, ids in the file are not those of the mesh.
+                this.target?.mesh.vertexMap === null ? this.target.mesh.handle : 0,
             );
         });
         return this.takeLandmarks(handle, notes);
