@@ -117,6 +117,7 @@ export class Session implements EmbeddingSession {
         const notes: string[] = [];
         const handle = core.call(
             "boundary_landmarks_by_proximity",
+            layout.surface,
             layout.mesh.handle,
             target.surface,
         );
