@@ -4,6 +4,7 @@
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
 #include "mesh/mesh_reader.hh"
+#include "mesh/repair.hh"
 #include "mesh/validation.hh"
 
 namespace layout_embedding::boundary {
@@ -75,6 +76,35 @@ std::uint32_t boundary_mesh_from_arrays(const Vec3* positions, std::size_t verte
         object->mesh.corners.assign(corners, corners + corner_count);
         object->mesh.face_offsets.assign(offsets, offsets + offset_count);
         return handles<MeshObject>().add(std::move(object));
+    });
+}
+
+/// Mends a mesh for the use that `kind`, a SurfaceKind, stands for. Returns another mesh, with
+/// notes and a vertex map; it is still to be validated.
+BOUNDARY_EXPORT(boundary_mesh_repair)
+std::uint32_t boundary_mesh_repair(std::uint32_t mesh, std::uint32_t kind)
+{
+    return guarded(0U, [&] {
+        RepairResult repaired =
+            repair_surface(mesh_object(mesh).mesh, static_cast<SurfaceKind>(kind));
+        return handles<MeshObject>().add(std::make_unique<MeshObject>(MeshObject{
+            std::move(repaired.mesh), std::move(repaired.notes), std::move(repaired.vertex_map)}));
+    });
+}
+
+/// Views a note on what was mended; 0 beyond the last one.
+BOUNDARY_EXPORT(boundary_mesh_note)
+std::uint32_t boundary_mesh_note(std::uint32_t mesh, std::size_t place)
+{
+    return guarded(0U, [&] { return view_note(mesh_object(mesh).notes, place); });
+}
+
+/// Views per vertex before the repair its id after it, all bits set where there is none.
+BOUNDARY_EXPORT(boundary_mesh_vertex_map) std::uint32_t boundary_mesh_vertex_map(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_view(mesh_object(mesh).vertex_map);
+        return 1U;
     });
 }
 

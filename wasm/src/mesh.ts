@@ -30,14 +30,10 @@ export function readMesh(
         return { handle: read, subject, vertexMap: null, notes: [] };
     }
     try {
-        const handle = core.withCopies((copy) => {
-            const name = new TextEncoder().encode(subject);
-            const kind = role === "target" ? 0 : 1;
-            return core.call("boundary_mesh_repair", read, kind, copy(name), name.length);
-        });
+        const handle = core.call("boundary_mesh_repair", read, role === "target" ? 0 : 1);
         const notes: Notes = [];
         for (let i = 0; core.test("boundary_mesh_note", handle, i); ++i) {
-            notes.push(core.viewedText());
+            notes.push(`${subject}: ${core.viewedText()}`);
         }
         core.call("boundary_mesh_vertex_map", handle);
         // kNone, all bits set, becomes -1.
