@@ -134,6 +134,7 @@ export class Session implements EmbeddingSession {
         const checked = jobOptions(options);
         if (this.landmarks === null) {
             await this.landmarksByProximity();
+            this.assertAlive();
         }
         const landmarks = this.landmarks;
         if (landmarks === null) {

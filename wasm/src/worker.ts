@@ -1,6 +1,6 @@
 // The worker's side: sessions by id, several jobs at a time, each in slices. The other side is
 // client.ts, which starts this file.
-import { asLayoutError } from "./errors.js";
+import { asLayoutError, javaScriptError } from "./errors.js";
 import { init } from "./loader.js";
 import { buffersIn, type Reply, type Request } from "./protocol.js";
 import { Session } from "./session.js";
@@ -38,8 +38,10 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
         case "call": {
             const session = sessions.get(request.session);
             if (session === undefined) {
-                // dispose() twice does no harm; anything else cannot come from client.ts.
-                return undefined;
+                if (request.method === "dispose") {
+                    return undefined;
+                }
+                throw javaScriptError("disposed", "the session cannot be used any more");
             }
             if (request.method === "solve") {
                 return solve(session, request.id, request.args[0] as SolveOptions, send);

@@ -6,8 +6,11 @@ import type { WrittenEmbedding } from "./read_embedding.js";
 
 /** Sums of the same numbers in another order differ by less. */
 const rounding = 1e-9;
-/** Costs contain the perturbation that makes shortest paths unique. */
-const perturbation = 1e-6;
+/**
+ * Costs contain the perturbation that makes shortest paths unique: per step of a path, at most this
+ * share of the target's diagonal (core/surface/path_graph.cc).
+ */
+const perturbation = 2 ** -22;
 
 export function checkNumbers(
     { document, refined, lines }: WrittenEmbedding,
@@ -42,7 +45,9 @@ export function checkNumbers(
         }
     }
     const cost = document.edges.reduce((sum, edge) => sum + weakLength(target, edge.weakPath), 0);
-    if (document.cost === null || !near(document.cost, cost, perturbation)) {
+    const steps = document.edges.reduce((sum, edge) => sum + edge.weakPath.length, 0);
+    const tolerance = steps * perturbation * diagonal(target) + rounding * cost;
+    if (document.cost === null || !(Math.abs(document.cost - cost) <= tolerance)) {
         refuse("costWrong", `the weak paths add up to ${String(cost)}, not to the cost.`);
         return violations;
     }
@@ -60,6 +65,17 @@ export function checkNumbers(
 
 function near(a: number, b: number, tolerance: number): boolean {
     return Math.abs(a - b) <= tolerance * Math.max(Math.abs(a), Math.abs(b));
+}
+
+/** Of the bounding box. */
+function diagonal(positions: Float64Array): number {
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    positions.forEach((coordinate, i) => {
+        low[i % 3] = Math.min(low[i % 3] ?? Infinity, coordinate);
+        high[i % 3] = Math.max(high[i % 3] ?? -Infinity, coordinate);
+    });
+    return Math.hypot(...high.map((coordinate, axis) => coordinate - (low[axis] ?? 0)));
 }
 
 /** The length of a weak path between the centroids of its points' target vertices. */
