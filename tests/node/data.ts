@@ -8,7 +8,8 @@ const root = path.resolve(import.meta.dirname, "../..");
 export const shared = process.env["LAYOUT_EMBEDDING_DATA"] ?? path.resolve(root, "../shared");
 
 /** Whether the files are there; otherwise tests that need them are skipped, and say so. */
-export const hasShared = existsSync(path.join(shared, "data")) && existsSync(path.join(shared, "instances"));
+export const hasShared =
+    existsSync(path.join(shared, "data")) && existsSync(path.join(shared, "instances"));
 if (!hasShared) {
     console.warn(`skipping tests on real data: nothing in ${shared} (set LAYOUT_EMBEDDING_DATA)`);
 }

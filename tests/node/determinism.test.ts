@@ -35,7 +35,9 @@ test("a_work_limit_cuts_at_the_same_place_in_any_slices", async () => {
 
 test("two_instances_of_the_module_agree", async () => {
     const first = timeless(await embed(problem));
-    const bytes = readFileSync(createRequire(import.meta.url).resolve("layout-embedding/core.wasm"));
+    const bytes = readFileSync(
+        createRequire(import.meta.url).resolve("layout-embedding/core.wasm"),
+    );
     await init({ wasm: bytes });
     expect(timeless(await embed(problem))).toEqual(first);
 });

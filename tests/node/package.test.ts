@@ -87,7 +87,7 @@ describe("a job", () => {
         const counts = seen.flatMap(({ paths }) => (paths ? [paths.layoutEdges.length] : []));
         expect(counts.length).toBeGreaterThan(1);
         expect(counts).toEqual([...counts].sort((a, b) => a - b));
-        const last = seen.findLast(({ paths }) => paths !== null)!.paths!;
+        const last = seen.flatMap(({ paths }) => paths ?? []).at(-1)!;
         expect(last.points).toHaveLength(3 * last.offsets.at(-1)!);
     });
 
@@ -206,7 +206,9 @@ describe("a session", () => {
         await expect(session.exportFiles()).rejects.toMatchObject({ code: "nothingToExport" });
         await session.dispose();
         await session.dispose();
-        await expect(session.loadLayout(problem.layout)).rejects.toMatchObject({ code: "disposed" });
+        await expect(session.loadLayout(problem.layout)).rejects.toMatchObject({
+            code: "disposed",
+        });
     });
 
     test("disposed_of_while_solving_rejects", async () => {

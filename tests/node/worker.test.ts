@@ -70,7 +70,9 @@ test("hands_on_errors_with_code_and_details", async () => {
     const failure = session.setLandmarks([0, 1, 2, 3, 4, 9999]);
     await expect(failure).rejects.toBeInstanceOf(LayoutError);
     await expect(failure).rejects.toMatchObject({ code: "landmarkOutOfRange" });
-    const { details } = await failure.catch((error: unknown) => error as LayoutError) as LayoutError;
+    const { details } = (await failure.catch(
+        (error: unknown) => error as LayoutError,
+    )) as LayoutError;
     expect(Object.values(details)).toContain(9999);
     await session.dispose();
 });

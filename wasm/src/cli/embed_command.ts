@@ -10,16 +10,24 @@ import { OutputFolder } from "./output_folder.js";
 import { ProgressLine } from "./progress.js";
 
 export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
+    // The first interruption ends the search, a second one the program.
+    const interrupt = new AbortController();
+    const stop = () => {
+        interrupt.abort();
+    };
+    process.once("SIGINT", stop);
+    process.once("SIGTERM", stop);
     const output = command.output === null ? null : await OutputFolder.prepare(command.output);
     const session = await Session.create();
     try {
         await load(session, command);
-        const interrupt = new AbortController();
-        const result = await solve(session, command, interrupt);
+        const result = await solve(session, command, interrupt.signal);
         return await finish(session, command, output, result, interrupt.signal.aborted);
     } finally {
         await session.dispose();
         await output?.leave();
+        process.off("SIGINT", stop);
+        process.off("SIGTERM", stop);
     }
 }
 
@@ -44,30 +52,22 @@ async function load(session: Session, command: EmbedCommand): Promise<void> {
     }
 }
 
-/** Solves; the first interruption ends the search, a second one the program. */
 async function solve(
     session: Session,
     command: EmbedCommand,
-    interrupt: AbortController,
+    signal: AbortSignal,
 ): Promise<EmbedResult> {
     const line = new ProgressLine(process.stderr.isTTY && !command.quiet);
-    const stop = () => {
-        interrupt.abort();
-    };
-    process.once("SIGINT", stop);
-    process.once("SIGTERM", stop);
     try {
         return await session.solve({
             ...command.solve,
-            signal: interrupt.signal,
+            signal,
             onProgress: (progress) => {
                 line.show(progress);
             },
         });
     } finally {
         line.clear();
-        process.off("SIGINT", stop);
-        process.off("SIGTERM", stop);
     }
 }
 
