@@ -204,7 +204,7 @@ describe("usage", () => {
         ["check_of_a_file", ["check", "layout.obj", "layout.obj", "target.obj"], "usage"],
     ])("%s_is_refused_with_2_and_one_sentence", (_, args, code) =>
         withInputs(async (cwd) => {
-            const json = await run([...args, "--json"], { cwd });
+            const json = await run(["--json", ...args], { cwd });
             expect(json).toMatchObject({ exitCode: 2, stderr: "" });
             const { code: found, message } = errorOf(json.stdout);
             expect(found).toBe(code);

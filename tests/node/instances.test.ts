@@ -8,7 +8,7 @@ import { controlMeshes, hasShared, sphereCubes } from "./data.js";
 
 describe.skipIf(!hasShared)("embed", () => {
     test.each([...controlMeshes, ...sphereCubes])(
-        "embeds_all_edges_of_$name_so_that_check_accepts",
+        "all_edges_are_embedded_and_check_accepts: $name",
         ({ layout, target, landmarks }) =>
             inFolder(async (folder) => {
                 const output = path.join(folder, "out");

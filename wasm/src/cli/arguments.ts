@@ -54,6 +54,10 @@ export function wantsJson(args: string[]): boolean {
 
 export function parseCommand(args: string[]): Command {
     const [name, ...rest] = args;
+    if (name === "--json" && rest[0] !== undefined) {
+        // The one option that may come first, too.
+        return parseCommand([rest[0], name, ...rest.slice(1)]);
+    }
     switch (name) {
         case "embed":
             return parseEmbed(rest);
@@ -66,6 +70,7 @@ export function parseCommand(args: string[]): Command {
         case "--version":
             return { name: "version" };
         case undefined:
+        case "--json":
             throw javaScriptError("usage", "no command was given");
         default:
             throw javaScriptError("usage", `there is no command ${name}`);
