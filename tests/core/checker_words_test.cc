@@ -47,7 +47,7 @@ TEST(CheckerWords, a_word_times_its_inverse_is_empty)
 TEST(CheckerWords, products_of_powers_are_found_however_large_the_powers)
 {
     Random random(2);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 500; ++i) {
         const int rank = 1 + static_cast<int>(random.below(3));
         const Word x = random_word(random, random.below(8), rank);
         const Word y = random_word(random, random.below(8), rank);
@@ -63,7 +63,7 @@ TEST(CheckerWords, decision_agrees_with_trying_all_small_powers)
     Random random(3);
     int yes = 0;
     int no = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 800; ++i) {
         const Word x = random_word(random, random.below(4), 2);
         const Word y = random_word(random, random.below(4), 2);
         const Word z = random_word(random, random.below(6), 2);
@@ -77,8 +77,8 @@ TEST(CheckerWords, decision_agrees_with_trying_all_small_powers)
         EXPECT_EQ(is_product_of_powers(x, y, z), expected);
         ++(expected ? yes : no);
     }
-    EXPECT_GT(yes, 200);
-    EXPECT_GT(no, 200);
+    EXPECT_GT(yes, 50);
+    EXPECT_GT(no, 50);
 }
 
 TEST(CheckerWords, commuting_powers_follow_the_greatest_common_divisor)
