@@ -149,6 +149,26 @@ std::vector<Index> random_order(Index count, Random& random)
     return order;
 }
 
+std::vector<Index> random_tree_first_order(const Layout& layout, Random& random)
+{
+    std::vector<Index> component(layout.vertex_count());
+    std::iota(component.begin(), component.end(), Index{0});
+    std::vector<Index> tree;
+    std::vector<Index> others;
+    for (const Index e : random_order(layout.edge_count(), random)) {
+        const Index a = component[layout.tail(2 * e)];
+        const Index b = component[layout.head(2 * e)];
+        if (a == b) {
+            others.push_back(e);
+        } else {
+            tree.push_back(e);
+            std::replace(component.begin(), component.end(), a, b);
+        }
+    }
+    tree.insert(tree.end(), others.begin(), others.end());
+    return tree;
+}
+
 std::vector<Instance> random_instances(std::uint64_t seed, int count)
 {
     Random random(seed);

@@ -40,7 +40,11 @@ struct SearchGround {
     CutSurfaceSearch search;
 };
 
-/// The layout's edges in a random order.
+/// The numbers 0 .. count-1 in a random order.
 std::vector<Index> random_order(Index count, Random& random);
+
+/// The layout's edges in a random order that begins with a spanning tree: on closed surfaces of
+/// genus 0 such an order can always be inserted to its end.
+std::vector<Index> random_tree_first_order(const Layout& layout, Random& random);
 
 }  // namespace layout_embedding::test
