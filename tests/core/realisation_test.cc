@@ -1,5 +1,6 @@
 #include "embedding/realisation.hh"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
