@@ -390,9 +390,19 @@ std::vector<Instance> random_instances(std::uint64_t seed, int rounds)
         add("torus4x4 on torus8x12" + suffix, torus(4, 4), fine_torus, landmarks);
         const PolygonMesh fine_disk = scrambled(triangulated(disk(5), random), random);
         add("disk2 on disk5" + suffix, disk(2), fine_disk, random_landmarks(9, fine_disk, random));
-        const PolygonMesh fine_ring = triangulated(annulus(9, 4), random);
-        add("annulus4x1 on annulus9x4" + suffix, annulus(4, 1), fine_ring,
-            random_landmarks(8, fine_ring, random));
+        const PolygonMesh fine_ring = triangulated(annulus(12, 5), random);
+        std::vector<Index> inside;
+        std::vector<Index> on_boundary;
+        for (Index i = 0; i < 4; ++i) {
+            for (Index j = 0; j < 2; ++j) {
+                const Index turn = 3 * i + static_cast<Index>(random.below(3));
+                inside.push_back(turn * 6 + 1 + 2 * j + static_cast<Index>(random.below(2)));
+                on_boundary.push_back(turn * 6 + 5 * j);
+            }
+        }
+        add("annulus4x1 on annulus12x5" + suffix, annulus(4, 1), fine_ring, inside);
+        add("annulus4x1 on annulus12x5, boundary landmarks" + suffix, annulus(4, 1), fine_ring,
+            on_boundary);
         // Landmarks on the boundary: the corners and side midpoints of a square.
         add("disk2 on disk6, boundary landmarks" + suffix, disk(2), triangulated(disk(6), random),
             {0, 3, 6, 21, 24, 27, 42, 45, 48});

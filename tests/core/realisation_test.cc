@@ -151,6 +151,40 @@ TEST(Realisation, normal_forms_are_sound_and_free_of_bigons)
     }
 }
 
+TEST(Realisation, passing_a_vertex_crosses_at_most_half_of_its_edges)
+{
+    // The vertex is put where it has at least half of its edges on its own side of every pass, and
+    // bigons only make it fewer. A midpoint costs a crossing of its edge at most.
+    for (const Instance& instance : all_instances()) {
+        SCOPED_TRACE(instance.name);
+        const TriangleMesh& mesh = *instance.problem.target;
+        if (mesh.boundary_loop_count() > 0) {
+            continue;
+        }
+        std::vector<Index> degrees(mesh.vertex_count(), 0);
+        for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+            ++degrees[mesh.tail(h)];
+        }
+        const auto form = normal_form_of(instance.problem, instance.graph, instance.weak);
+        ASSERT_TRUE(form.ok());
+        for (Index strand = 0; strand < form->strand_count(); ++strand) {
+            const std::vector<Index>& darts = instance.weak.paths[strand].darts;
+            Index most = 0;
+            for (std::size_t i = 0; i + 1 < darts.size(); ++i) {
+                const NodeElement element = instance.graph.element(instance.graph.head(darts[i]));
+                most += element.kind == NodeKind::vertex          ? degrees[element.id] / 2
+                        : element.kind == NodeKind::edge_midpoint ? 1
+                                                                  : 0;
+            }
+            Index crossings = 0;
+            for (Index id = form->first(strand); id != kNone; id = form->element(id).next) {
+                crossings += form->element(id).is_crossing() ? 1 : 0;
+            }
+            EXPECT_LE(crossings, most);
+        }
+    }
+}
+
 TEST(Realisation, every_embedding_passes_the_checker)
 {
     for (const Instance& instance : all_instances()) {
