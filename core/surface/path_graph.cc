@@ -130,6 +130,13 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
     return graph;
 }
 
+void PathGraph::set_lengths(std::span<const Length> lengths)
+{
+    for (Index d = 0; d < dart_count(); ++d) {
+        darts_[d].length = lengths[d];
+    }
+}
+
 std::uint64_t PathGraph::estimate_bytes(Index vertices, Index edges, Index faces)
 {
     const std::uint64_t nodes = std::uint64_t{vertices} + edges + faces;
