@@ -72,6 +72,10 @@ private:
 
     bool mend(Index f)
     {
+        if (is_alone(f)) {
+            dropped_[f] = true;
+            return true;
+        }
         Index longest = 3 * f;
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
             if (position(halfedges_.tail(h)) == position(halfedges_.head(h))) {
@@ -84,8 +88,15 @@ private:
         return halfedges_.opposite(longest) == kNone ? drop_at_boundary(longest) : flip(longest);
     }
 
-    /// All halfedges that leave the tail of `start`, and whether that is a boundary vertex. The
-    /// last neighbour of a boundary vertex has no halfedge from it; see neighbours().
+    /// Whether no other face shares an edge with f, as with the debris in triangle soups.
+    bool is_alone(Index f) const
+    {
+        return before_.face_count() > 1 && halfedges_.opposite(3 * f) == kNone &&
+               halfedges_.opposite(3 * f + 1) == kNone && halfedges_.opposite(3 * f + 2) == kNone;
+    }
+
+    /// All halfedges that leave the tail of `start`, and whether that is a boundary vertex (to
+    /// whose first neighbour no halfedge leads; see neighbours()).
     std::vector<Index> fan(Index start, bool& boundary) const
     {
         std::vector<Index> result;

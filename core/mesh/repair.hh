@@ -24,7 +24,8 @@ struct RepairResult {
 ///   makes one vertex of those at exactly the same position, edge by edge (mesh/weld.hh);
 /// - triangle targets: mends triangles without area, by collapsing an edge of no length, by
 /// flipping
-///   the longest edge, or by dropping the triangle at the boundary, where that is safe;
+///   the longest edge, or by dropping the triangle (at the boundary, or if it shares no edge with
+///   others), where that is safe;
 /// - drops vertices in no face.
 ///
 /// A mesh that passes check_surface() comes back as it is, without notes. The result need not pass:

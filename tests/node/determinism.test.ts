@@ -14,8 +14,8 @@ const problem = {
 
 /** A result without what time it took. */
 function timeless(result: EmbedResult) {
-    const { seconds: _s, cpuSeconds: _c, events, ...rest } = result;
-    return { ...rest, events: events.map(({ seconds: _, ...event }) => event) };
+    const events = result.events.map((event) => ({ ...event, seconds: 0 }));
+    return { ...result, seconds: 0, cpuSeconds: 0, events };
 }
 
 test("slices_of_any_size_change_nothing_but_seconds", async () => {

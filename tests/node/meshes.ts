@@ -74,7 +74,8 @@ export const cube: Mesh = {
  * octahedron's.
  */
 export function sphere(rounds: number): Mesh {
-    let { positions, faces } = structuredClone(octahedron);
+    const positions = [...octahedron.positions];
+    let { faces } = octahedron;
     for (let round = 0; round < rounds; ++round) {
         const midpoints = new Map<string, number>();
         const midpoint = (a: number, b: number) => {

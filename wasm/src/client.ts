@@ -1,5 +1,6 @@
 // The same API in a worker ("layout-embedding/worker"), so that a page stays responsive: in
 // browsers a module worker, in Node a worker thread.
+import type * as WorkerThreads from "node:worker_threads";
 import { javaScriptError, LayoutError } from "./errors.js";
 import type { Reply, Request, SessionMethod } from "./protocol.js";
 import { embedIn } from "./sugar.js";
@@ -256,9 +257,7 @@ async function openPort(events: PortEvents): Promise<Port> {
     // Not literals, so that bundlers for the browser don't look for them.
     const module = "node:worker_threads";
     const file = "./worker.js";
-    const threads = (await import(
-        /* @vite-ignore */ module
-    )) as typeof import("node:worker_threads");
+    const threads = (await import(/* @vite-ignore */ module)) as typeof WorkerThreads;
     const thread = new threads.Worker(new URL(file, import.meta.url));
     thread.on("message", events.onReply);
     thread.on("error", (error: Error) => {

@@ -202,11 +202,12 @@ function reportProgress(
     const events = readEvents(core, job, seen);
     const last = events.at(-1);
     if (last !== undefined) {
-        const { kind: _, ...state } = last;
+        const { phase, seconds, work, cost, lowerBound, progress } = last;
         const moved = events.some(
             (event) => event.kind === "incumbent" || event.kind === "progress",
         );
-        onProgress({ ...state, paths: moved ? readPaths(core, job) : null });
+        const paths = moved ? readPaths(core, job) : null;
+        onProgress({ phase, seconds, work, cost, lowerBound, progress, paths });
     }
     return seen + events.length;
 }

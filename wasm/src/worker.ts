@@ -1,5 +1,6 @@
 // The worker's side: sessions by id, several jobs at a time, each in slices. The other side is
 // client.ts, which starts this file.
+import type { MessagePort } from "node:worker_threads";
 import { asLayoutError, javaScriptError } from "./errors.js";
 import { init } from "./loader.js";
 import { buffersIn, type Reply, type Request } from "./protocol.js";
@@ -49,8 +50,11 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
             if (request.method === "dispose") {
                 sessions.delete(request.session);
             }
-            const method = session[request.method] as (...args: unknown[]) => Promise<unknown>;
-            return method.apply(session, request.args);
+            const methods = session as unknown as Record<
+                string,
+                (...args: unknown[]) => Promise<unknown>
+            >;
+            return methods[request.method]?.(...request.args);
         }
     }
 }
@@ -83,7 +87,7 @@ async function start(): Promise<void> {
     // Not a literal, so that bundlers for the browser don't look for it.
     const name = "node:worker_threads";
     const { parentPort } = (await import(/* @vite-ignore */ name)) as {
-        parentPort: import("node:worker_threads").MessagePort | null;
+        parentPort: MessagePort | null;
     };
     const send: Send = (reply, transfer) => parentPort?.postMessage(reply, transfer);
     parentPort?.on("message", (request: Request) => void answer(request, send));
