@@ -70,17 +70,17 @@ enum class EventKind : std::uint32_t {
 
 /// Something that happened, with the state after it.
 struct EmbedEvent {
-    EventKind kind;
-    EmbedPhase phase;
+    EventKind kind = EventKind::phase;
+    EmbedPhase phase = EmbedPhase::prepare;
     /// Seconds since the job started.
-    double seconds;
+    double seconds = 0;
     /// Node expansions since the job started.
-    std::uint64_t work;
+    std::uint64_t work = 0;
     /// In target units; infinity while there is no embedding.
-    double cost;
-    double lower_bound;
+    double cost = std::numeric_limits<double>::infinity();
+    double lower_bound = 0;
     /// Share of the phase that is done, in [0, 1].
-    double progress;
+    double progress = 0;
 };
 
 /// Paths as polylines, ready to draw.
@@ -94,9 +94,14 @@ struct Polylines {
 
 /// Machine-independent counts.
 struct EmbedCounters {
+    /// Shortest-path searches in the cut surface.
     std::uint64_t searches = 0;
+    /// States of the cut surface expanded by them; the unit of work.
     std::uint64_t expansions = 0;
-    std::uint64_t states = 0;
+    /// Nodes settled by the distance fields that guide them.
+    std::uint64_t field_nodes = 0;
+    /// Paths inserted into embeddings.
+    std::uint64_t insertions = 0;
     /// How often a tie made the job draw new perturbations.
     std::uint64_t ties = 0;
 };

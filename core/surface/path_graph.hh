@@ -50,6 +50,10 @@ public:
     /// Bytes that barycentric() will take for a target of this size.
     static std::uint64_t estimate_bytes(Index vertices, Index edges, Index faces);
 
+    /// Replaces all lengths: one per dart, the same for both darts of an edge, all positive. This
+    /// is how another metric comes in; the lengths have to bring their own perturbation.
+    void set_lengths(std::span<const Length> lengths);
+
     Index node_count() const { return static_cast<Index>(dart_offsets_.size() - 1); }
     Index dart_count() const { return static_cast<Index>(darts_.size()); }
 

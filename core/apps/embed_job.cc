@@ -1,0 +1,376 @@
+#include "apps/embed_job.hh"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include "embedding/check_input.hh"
+#include "embedding/checker.hh"
+#include "embedding/realisation.hh"
+#include "search/greedy.hh"
+#include "surface/cut_surface_search.hh"
+#include "surface/distance_field.hh"
+#include "surface/strands.hh"
+
+namespace layout_embedding {
+
+namespace {
+
+// Between two looks at the clock; about a millisecond.
+constexpr std::uint64_t kExpansionsPerSlice = 4096;
+// Distance fields beyond this are dropped and computed again.
+constexpr std::uint64_t kMaxFieldBytes = std::uint64_t{256} << 20U;
+// Perturbations drawn before a tie is reported.
+constexpr std::uint32_t kMaxAttempts = 8;
+
+/// Everything a search stands on, in the order in which it is built.
+struct Ground {
+    Ground(const EmbeddingProblem& problem, const PathGraph& graph, std::uint64_t field_bytes)
+        : strands(problem, graph),
+          fields(graph, strands.passable(), field_bytes),
+          search(strands, fields),
+          greedy(strands, search)
+    {}
+
+    static std::uint64_t estimate_bytes(std::uint64_t nodes)
+    {
+        // Labels and queue of the search, records, and one distance field.
+        return nodes * (16 + 16 + 4 + 4);
+    }
+
+    Strands strands;
+    DistanceFields fields;
+    CutSurfaceSearch search;
+    GreedySearch greedy;
+};
+
+}  // namespace
+
+struct EmbedJob::Implementation {
+    using Clock = std::chrono::steady_clock;
+
+    Implementation(EmbeddingProblem problem_in, EmbedOptions options_in)
+        : problem(std::move(problem_in)), options(options_in)
+    {}
+
+    EmbeddingProblem problem;
+    EmbedOptions options;
+    EmbedPhase phase = EmbedPhase::prepare;
+    std::vector<EmbedEvent> events;
+    EmbedResult result;
+    Error error;
+    bool started = false;
+    bool cancel_requested = false;
+    std::uint32_t attempt = 0;
+    Clock::time_point start_time;
+    double search_start = 0;
+    double cpu_seconds = 0;
+    std::uint64_t field_bytes = kMaxFieldBytes;
+    std::unique_ptr<PathGraph> graph;
+    std::unique_ptr<Ground> ground;
+    EmbedCounters earlier_attempts;
+
+    double seconds() const
+    {
+        return std::chrono::duration<double>(Clock::now() - start_time).count();
+    }
+
+    void emit(EventKind kind, double progress)
+    {
+        events.push_back({kind, phase, seconds(), result.counters.expansions, result.cost,
+                          result.lower_bound, progress});
+    }
+
+    void enter(EmbedPhase next)
+    {
+        phase = next;
+        emit(EventKind::phase, next == EmbedPhase::done ? 1 : 0);
+    }
+
+    void end(EmbedStatus status)
+    {
+        result.status = status;
+        ground.reset();
+        enter(EmbedPhase::done);
+    }
+
+    void fail(EmbedStatus status, Error reason)
+    {
+        error = std::move(reason);
+        end(status);
+    }
+
+    void update_counters()
+    {
+        EmbedCounters& counters = result.counters;
+        counters = earlier_attempts;
+        counters.searches += ground->search.search_count();
+        counters.expansions += ground->search.expansion_count();
+        counters.field_nodes += ground->fields.settled_count();
+        counters.insertions += ground->strands.insertion_order().size();
+    }
+
+    void set_lower_bound(Length bound)
+    {
+        result.exact_lower_bound = bound;
+        result.lower_bound = graph->to_units(bound);
+        set_gap();
+    }
+
+    void set_gap()
+    {
+        // Both are exact: equal integers are a gap of exactly zero.
+        if (result.exact_cost != kInfiniteLength) {
+            result.gap = static_cast<double>(result.exact_cost - result.exact_lower_bound) /
+                         static_cast<double>(result.exact_cost);
+        }
+    }
+
+    void prepare()
+    {
+        const TriangleMesh& target = *problem.target;
+        const std::uint64_t nodes =
+            std::uint64_t{target.vertex_count()} + target.edge_count() + target.face_count();
+        const std::uint64_t needed =
+            PathGraph::estimate_bytes(target.vertex_count(), target.edge_count(),
+                                      target.face_count()) +
+            Ground::estimate_bytes(nodes);
+        if (needed > options.memory_limit) {
+            fail(EmbedStatus::memory_limit,
+                 make_error(ErrorCode::memoryLimit,
+                            "a target with " + std::to_string(target.face_count()) +
+                                " triangles needs about " + std::to_string((needed >> 20U) + 1) +
+                                " MB, more than the limit of " +
+                                std::to_string(options.memory_limit >> 20U) + " MB"));
+            return;
+        }
+        field_bytes = std::min(kMaxFieldBytes, options.memory_limit - needed);
+        build_ground();
+        search_start = seconds();
+        enter(EmbedPhase::search);
+    }
+
+    void build_ground()
+    {
+        ground.reset();
+        graph = std::make_unique<PathGraph>(
+            PathGraph::barycentric(*problem.target, {options.seed, attempt}));
+        ground = std::make_unique<Ground>(problem, *graph, field_bytes);
+    }
+
+    /// Searches for a bounded number of expansions.
+    void search(std::uint64_t max_expansions)
+    {
+        const std::uint64_t left = options.work_limit - result.counters.expansions;
+        GreedySearch& greedy = ground->greedy;
+        const auto outcome = greedy.run(std::min(max_expansions, left));
+        update_counters();
+        switch (outcome) {
+            case GreedySearch::Outcome::running:
+                if (result.counters.expansions >= options.work_limit) {
+                    end(EmbedStatus::work_limit);
+                }
+                break;
+            case GreedySearch::Outcome::bounded:
+                set_lower_bound(greedy.lower_bound());
+                emit(EventKind::bound, 0);
+                break;
+            case GreedySearch::Outcome::inserted:
+                emit(EventKind::progress,
+                     static_cast<double>(ground->strands.insertion_order().size()) /
+                         problem.layout->edge_count());
+                break;
+            case GreedySearch::Outcome::complete:
+                accept_embedding();
+                break;
+            case GreedySearch::Outcome::failed:
+                end(greedy.lower_bound() == kInfiniteLength ? EmbedStatus::infeasible
+                                                            : EmbedStatus::none_found);
+                break;
+            case GreedySearch::Outcome::tied:
+                draw_again();
+                break;
+        }
+    }
+
+    void draw_again()
+    {
+        if (++attempt == kMaxAttempts) {
+            fail(EmbedStatus::failed,
+                 make_error(ErrorCode::unresolvedTie,
+                            "paths of equal length appeared under each of " +
+                                std::to_string(kMaxAttempts) + " perturbations"));
+            return;
+        }
+        earlier_attempts = result.counters;
+        ++earlier_attempts.ties;
+        result.counters = earlier_attempts;
+        build_ground();
+    }
+
+    void accept_embedding()
+    {
+        result.weak = ground->strands.weak_embedding();
+        result.insertion_order = ground->strands.insertion_order();
+        result.exact_cost = ground->greedy.embedded_cost();
+        result.cost = graph->to_units(result.exact_cost);
+        set_gap();
+        emit(EventKind::incumbent, 1);
+        ground.reset();
+        enter(EmbedPhase::realise);
+    }
+
+    void realise_embedding()
+    {
+        auto refined = realise(problem, *graph, result.weak);
+        if (!refined) {
+            fail(EmbedStatus::failed, refined.error());
+            return;
+        }
+        result.refined = std::move(*refined);
+        enter(EmbedPhase::check);
+    }
+
+    void check()
+    {
+        const PolygonMesh layout = to_polygons(*problem.layout);
+        const PolygonMesh target = to_polygons(*problem.target);
+        const auto edges = layout_edges(*problem.layout);
+        const auto points = weak_points(*problem.target, *graph, result.weak);
+        const CheckReport report =
+            check_embedding({layout, target, problem.landmarks, *result.refined, edges, points});
+        if (!report.valid()) {
+            result.refined.reset();
+            fail(EmbedStatus::failed,
+                 make_error(ErrorCode::realisationFailed, "the checker refuses the embedding (" +
+                                                              report.violations[0].code + ": " +
+                                                              report.violations[0].message + ")"));
+            return;
+        }
+        const bool optimal = result.exact_cost == result.exact_lower_bound;
+        end(optimal                     ? EmbedStatus::optimal
+            : result.gap <= options.gap ? EmbedStatus::gap_reached
+                                        : EmbedStatus::feasible);
+    }
+
+    void step(const StepBudget& budget)
+    {
+        const auto slice_start = Clock::now();
+        const std::uint64_t work_end =
+            result.counters.expansions +
+            std::min(budget.work, UINT64_MAX - result.counters.expansions);
+        const auto milliseconds = [&] {
+            return std::chrono::duration<double, std::milli>(Clock::now() - slice_start).count();
+        };
+        do {
+            switch (phase) {
+                case EmbedPhase::prepare:
+                    prepare();
+                    break;
+                case EmbedPhase::search:
+                    if (cancel_requested) {
+                        end(EmbedStatus::cancelled);
+                    } else if (seconds() - search_start > options.time_limit) {
+                        end(EmbedStatus::time_limit);
+                    } else {
+                        search(
+                            std::min(kExpansionsPerSlice, work_end - result.counters.expansions));
+                    }
+                    break;
+                case EmbedPhase::realise:
+                    realise_embedding();
+                    break;
+                case EmbedPhase::check:
+                    check();
+                    break;
+                case EmbedPhase::done:
+                    return;
+            }
+        } while (milliseconds() < budget.milliseconds && result.counters.expansions < work_end);
+    }
+};
+
+EmbedJob::EmbedJob(EmbeddingProblem problem, EmbedOptions options)
+    : implementation_(std::make_unique<Implementation>(std::move(problem), options))
+{}
+EmbedJob::~EmbedJob() = default;
+EmbedJob::EmbedJob(EmbedJob&&) noexcept = default;
+EmbedJob& EmbedJob::operator=(EmbedJob&&) noexcept = default;
+
+bool EmbedJob::step(const StepBudget& budget)
+{
+    Implementation& job = *implementation_;
+    if (job.phase == EmbedPhase::done) {
+        return false;
+    }
+    const std::clock_t cpu_start = std::clock();
+    if (!job.started) {
+        job.started = true;
+        job.start_time = Implementation::Clock::now();
+        job.emit(EventKind::phase, 0);
+    }
+    job.step(budget);
+    job.cpu_seconds += static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+    job.result.cpu_seconds = job.cpu_seconds;
+    job.result.seconds = job.seconds();
+    return job.phase != EmbedPhase::done;
+}
+
+void EmbedJob::cancel()
+{
+    implementation_->cancel_requested = true;
+}
+const EmbeddingProblem& EmbedJob::problem() const
+{
+    return implementation_->problem;
+}
+const EmbedOptions& EmbedJob::options() const
+{
+    return implementation_->options;
+}
+const std::vector<EmbedEvent>& EmbedJob::events() const
+{
+    return implementation_->events;
+}
+const EmbedResult& EmbedJob::result() const
+{
+    return implementation_->result;
+}
+const Error& EmbedJob::error() const
+{
+    return implementation_->error;
+}
+const PathGraph* EmbedJob::graph() const
+{
+    return implementation_->graph.get();
+}
+
+Polylines EmbedJob::paths() const
+{
+    const Implementation& job = *implementation_;
+    Polylines lines;
+    if (!job.graph) {
+        return lines;
+    }
+    const PathGraph& graph = *job.graph;
+    for (Index e = 0; e < job.problem.layout->edge_count(); ++e) {
+        const std::vector<Index>* darts = nullptr;
+        if (!job.result.weak.paths.empty()) {
+            darts = &job.result.weak.paths[e].darts;
+        } else if (job.ground) {
+            darts = &job.ground->strands.darts(e);
+        }
+        if (darts == nullptr || darts->empty()) {
+            continue;
+        }
+        lines.points.push_back(graph.position(graph.tail(darts->front())));
+        for (const Index dart : *darts) {
+            lines.points.push_back(graph.position(graph.head(dart)));
+        }
+        lines.offsets.push_back(static_cast<Index>(lines.points.size()));
+        lines.layout_edges.push_back(e);
+    }
+    return lines;
+}
+
+}  // namespace layout_embedding

@@ -1,0 +1,201 @@
+#include "embedding/normal_form.hh"
+
+#include <utility>
+
+namespace layout_embedding {
+
+NormalForm::NormalForm(const TriangleMesh& mesh, Index strand_count)
+    : mesh_(&mesh),
+      strand_firsts_(strand_count, kNone),
+      strand_lasts_(strand_count, kNone),
+      edge_firsts_(mesh.edge_count(), kNone),
+      edge_lasts_(mesh.edge_count(), kNone)
+{}
+
+Vec3 NormalForm::position(Index id) const
+{
+    const Element& e = elements_[id];
+    if (!e.is_crossing()) {
+        return mesh_->position(e.vertex);
+    }
+    const Index h = mesh_->halfedge(edge(id));
+    return (1 - e.parameter) * mesh_->position(mesh_->tail(h)) +
+           e.parameter * mesh_->position(mesh_->head(h));
+}
+
+Index NormalForm::segment_face(Index id) const
+{
+    const Element& a = elements_[id];
+    if (a.is_crossing()) {
+        return TriangleMesh::face_of(mesh_->opposite(a.halfedge));
+    }
+    const Element& b = elements_[a.next];
+    return b.is_crossing() ? TriangleMesh::face_of(b.halfedge) : kNone;
+}
+
+Index NormalForm::segment_edge(Index id) const
+{
+    const Element& a = elements_[id];
+    const Element& b = elements_[a.next];
+    if (a.is_crossing() || b.is_crossing()) {
+        return kNone;
+    }
+    const Index start = mesh_->outgoing(a.vertex);
+    Index h = start;
+    do {
+        if (mesh_->head(h) == b.vertex) {
+            return mesh_->edge(h);
+        }
+        // The last edge around a boundary vertex has no outgoing halfedge, only this incoming one.
+        const Index incoming = TriangleMesh::previous(h);
+        if (mesh_->tail(incoming) == b.vertex) {
+            return mesh_->edge(incoming);
+        }
+        h = mesh_->rotated_ccw(h);
+    } while (h != kNone && h != start);
+    return kNone;
+}
+
+Index NormalForm::add_vertex(Index vertex)
+{
+    elements_.emplace_back().vertex = vertex;
+    return element_count() - 1;
+}
+
+Index NormalForm::add_crossing(Index halfedge)
+{
+    elements_.emplace_back().halfedge = halfedge;
+    return element_count() - 1;
+}
+
+void NormalForm::append_to_strand(Index strand, Index id)
+{
+    Index& last = strand_lasts_[strand];
+    elements_[id].previous = last;
+    (last == kNone ? strand_firsts_[strand] : elements_[last].next) = id;
+    last = id;
+}
+
+void NormalForm::append_to_edge(Index crossing)
+{
+    const Index e = edge(crossing);
+    Index& last = edge_lasts_[e];
+    elements_[crossing].edge_previous = last;
+    (last == kNone ? edge_firsts_[e] : elements_[last].edge_next) = crossing;
+    last = crossing;
+}
+
+void NormalForm::erase_crossing(Index crossing)
+{
+    Element& x = elements_[crossing];
+    // Strands start and end at vertices: a crossing has both neighbours along its strand.
+    elements_[x.previous].next = x.next;
+    elements_[x.next].previous = x.previous;
+    const Index e = edge(crossing);
+    (x.edge_previous == kNone ? edge_firsts_[e] : elements_[x.edge_previous].edge_next) =
+        x.edge_next;
+    (x.edge_next == kNone ? edge_lasts_[e] : elements_[x.edge_next].edge_previous) =
+        x.edge_previous;
+    x = Element{};
+}
+
+bool NormalForm::is_bigon(Index a, Index b) const
+{
+    const Element& x = elements_[a];
+    const Element& y = elements_[b];
+    if (x.is_crossing() && y.is_crossing()) {
+        return mesh_->edge(x.halfedge) == mesh_->edge(y.halfedge);
+    }
+    if (x.is_crossing() == y.is_crossing()) {
+        return false;
+    }
+    const Index vertex = x.is_crossing() ? y.vertex : x.vertex;
+    const Index h = x.is_crossing() ? x.halfedge : y.halfedge;
+    return mesh_->tail(h) == vertex || mesh_->head(h) == vertex;
+}
+
+Index NormalForm::remove_bigons()
+{
+    Index erased = 0;
+    for (Index strand = 0; strand < strand_count(); ++strand) {
+        // Everything before `id` is free of bigons.
+        Index id = strand_firsts_[strand];
+        while (id != kNone && elements_[id].next != kNone) {
+            const Index next = elements_[id].next;
+            if (!is_bigon(id, next)) {
+                id = next;
+                continue;
+            }
+            const Index before = elements_[id].previous;
+            const bool first_crosses = elements_[id].is_crossing();
+            if (elements_[next].is_crossing()) {
+                erase_crossing(next);
+                ++erased;
+            }
+            if (first_crosses) {
+                erase_crossing(id);
+                ++erased;
+                id = before;
+            }
+        }
+    }
+    return erased;
+}
+
+void NormalForm::compact()
+{
+    std::vector<Index> new_ids(elements_.size(), kNone);
+    std::vector<Element> kept;
+    kept.reserve(elements_.size());
+    for (Index strand = 0; strand < strand_count(); ++strand) {
+        for (Index id = strand_firsts_[strand]; id != kNone; id = elements_[id].next) {
+            new_ids[id] = static_cast<Index>(kept.size());
+            kept.push_back(elements_[id]);
+        }
+    }
+    const auto renumber = [&](Index& id) {
+        if (id != kNone) {
+            id = new_ids[id];
+        }
+    };
+    for (Element& e : kept) {
+        renumber(e.previous);
+        renumber(e.next);
+        if (e.is_crossing()) {
+            renumber(e.edge_previous);
+            renumber(e.edge_next);
+            const Index edge = mesh_->edge(e.halfedge);
+            const Index self = static_cast<Index>(&e - kept.data());
+            if (e.edge_previous == kNone) {
+                edge_firsts_[edge] = self;
+            }
+            if (e.edge_next == kNone) {
+                edge_lasts_[edge] = self;
+            }
+        }
+    }
+    for (Index strand = 0; strand < strand_count(); ++strand) {
+        renumber(strand_firsts_[strand]);
+        renumber(strand_lasts_[strand]);
+    }
+    elements_ = std::move(kept);
+}
+
+void NormalForm::spread_evenly()
+{
+    for (Index start = 0; start < element_count(); ++start) {
+        if (!elements_[start].is_crossing() || elements_[start].edge_previous != kNone) {
+            continue;
+        }
+        Index count = 0;
+        for (Index id = start; id != kNone; id = elements_[id].edge_next) {
+            ++count;
+        }
+        Index place = 0;
+        for (Index id = start; id != kNone; id = elements_[id].edge_next) {
+            elements_[id].parameter = ++place / (count + 1.0);
+        }
+    }
+}
+
+}  // namespace layout_embedding

@@ -1,0 +1,169 @@
+#include "surface/cut_surface_search.hh"
+
+#include <algorithm>
+
+namespace layout_embedding {
+
+namespace {
+constexpr std::uint32_t kClosed = 1;
+constexpr std::uint32_t kTied = 2;
+constexpr std::uint32_t kFlags = 4;
+}  // namespace
+
+CutSurfaceSearch::CutSurfaceSearch(const Strands& strands, DistanceFields& fields)
+    : strands_(strands), fields_(fields)
+{}
+
+void CutSurfaceSearch::begin(Index layout_edge)
+{
+    const Layout& layout = strands_.layout();
+    ++search_count_;
+    start_ = strands_.landmark_node(layout.tail(2 * layout_edge));
+    goal_ = strands_.landmark_node(layout.head(2 * layout_edge));
+    goal_sector_ = strands_.sector(2 * layout_edge + 1);
+    goal_distance_ = kInfiniteLength;
+    goal_dart_ = kNone;
+    goal_state_ = kNone;
+    goal_tied_ = false;
+    tied_ = false;
+    darts_.clear();
+    queue_.clear();
+    field_ = &fields_.get(goal_, start_);
+    lower_bound_ = field_->bound(start_);
+    if (labels_.size() < strands_.state_bound()) {
+        labels_.resize(strands_.state_bound(), Label{kInfiniteLength, kNone, 0});
+    }
+    if (++number_ >= UINT32_MAX / kFlags) {
+        std::fill(labels_.begin(), labels_.end(), Label{kInfiniteLength, kNone, 0});
+        number_ = 1;
+    }
+
+    const PathGraph& graph = strands_.graph();
+    const Index sector = strands_.sector(2 * layout_edge);
+    for (Index d = graph.first_dart(start_); d < graph.first_dart(start_ + 1); ++d) {
+        const Index strands = strands_.strand_count(start_, d);
+        for (Index slot = 0; slot <= strands; ++slot) {
+            if (strands_.region(start_, d, slot) == sector) {
+                relax(kNone, start_, d, slot, 0);
+            }
+        }
+    }
+}
+
+CutSurfaceSearch::Outcome CutSurfaceSearch::run(std::uint64_t max_expansions)
+{
+    // Goes on until the queue has passed the goal: only then have all walks of the same length been
+    // seen.
+    while (!queue_.empty() && queue_.front().estimate <= goal_distance_) {
+        const QueueItem item = queue_.front();
+        Label& label = labels_[item.state];
+        if ((label.mark & kClosed) == 0) {
+            if (max_expansions-- == 0) {
+                return Outcome::running;
+            }
+            lower_bound_ = std::max(lower_bound_, item.estimate);
+            label.mark |= kClosed;
+            ++expansion_count_;
+            std::pop_heap(queue_.begin(), queue_.end());
+            queue_.pop_back();
+            expand(item.state);
+        } else {
+            std::pop_heap(queue_.begin(), queue_.end());
+            queue_.pop_back();
+        }
+    }
+    lower_bound_ = goal_distance_;
+    if (goal_distance_ == kInfiniteLength) {
+        return Outcome::blocked;
+    }
+    collect_walk();
+    return tied_ ? Outcome::tied : Outcome::found;
+}
+
+void CutSurfaceSearch::expand(Index state)
+{
+    const PathGraph& graph = strands_.graph();
+    const Length distance = labels_[state].distance;
+    const Index node = strands_.node_of_state(state);
+    const Index end = graph.first_dart(node + 1);
+    if (!strands_.is_touched(node)) {
+        for (Index d = graph.first_dart(node); d < end; ++d) {
+            relax(state, node, d, 0, distance);
+        }
+        return;
+    }
+    const Index region = strands_.region_of_state(state);
+    for (Index d = graph.first_dart(node); d < end; ++d) {
+        const Index slot = strands_.slot_in_region(node, d, region);
+        if (slot != kNone) {
+            relax(state, node, d, slot, distance);
+        }
+    }
+}
+
+void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slot, Length distance)
+{
+    const Dart& along = strands_.graph().dart(dart);
+    const Length reached = distance + along.length;
+    const bool is_landmark = !strands_.passable()[along.head];
+    if (is_landmark && along.head != goal_) {
+        return;
+    }
+    const Index twin_slot = strands_.strand_count(tail, dart) - slot;
+    const Index region = strands_.region(along.head, along.twin, twin_slot);
+    if (is_landmark) {
+        if (region != goal_sector_) {
+            return;
+        }
+        if (reached < goal_distance_) {
+            goal_distance_ = reached;
+            goal_dart_ = dart;
+            goal_state_ = from_state;
+            goal_tied_ = false;
+        } else if (reached == goal_distance_) {
+            goal_tied_ = true;
+        }
+        return;
+    }
+    const Index state = strands_.state(along.head, region);
+    Label& label = labels_[state];
+    if (label.mark / kFlags == number_) {
+        if (reached > label.distance) {
+            return;
+        }
+        if (reached == label.distance) {
+            label.mark |= kTied;
+            return;
+        }
+    }
+    label = {reached, dart, number_ * kFlags};
+    queue_.push_back({reached + field_->bound(along.head), state});
+    std::push_heap(queue_.begin(), queue_.end());
+}
+
+void CutSurfaceSearch::collect_walk()
+{
+    const PathGraph& graph = strands_.graph();
+    tied_ = goal_tied_;
+    darts_.push_back(goal_dart_);
+    Index state = goal_state_;
+    while (state != kNone) {
+        const Label& label = labels_[state];
+        tied_ = tied_ || (label.mark & kTied) != 0;
+        const Index dart = label.parent_dart;
+        darts_.push_back(dart);
+        const Index tail = graph.tail(dart);
+        if (tail == start_) {
+            break;
+        }
+        const Index twin = graph.twin(dart);
+        const Index node = strands_.node_of_state(state);
+        const Index slot_here =
+            strands_.slot_in_region(node, twin, strands_.region_of_state(state));
+        const Index slot = strands_.strand_count(node, twin) - slot_here;
+        state = strands_.state(tail, strands_.region(tail, dart, slot));
+    }
+    std::reverse(darts_.begin(), darts_.end());
+}
+
+}  // namespace layout_embedding

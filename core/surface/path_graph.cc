@@ -1,0 +1,165 @@
+#include "surface/path_graph.hh"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hh"
+
+namespace layout_embedding {
+
+namespace {
+
+// The bounding-box diagonal is about 2^54 units: a path may be 512 diagonals long before a sum
+// overflows. Every edge gets 32 random low bits, centred so that they do not lengthen paths on
+// average; 2^-23 of the diagonal is far below the resolution of the subdivision.
+constexpr double kDiagonal = 0x1.0p54;
+constexpr Length kNoise = Length{1} << 32U;
+
+class LengthScale {
+public:
+    LengthScale(double unit, const PathGraph::Options& options)
+        : unit_(unit),
+          random_(Random::mix(options.seed) ^ Random::mix(~std::uint64_t{options.attempt}))
+    {}
+
+    Length operator()(double distance)
+    {
+        const auto rounded = static_cast<Length>(distance / unit_ + 0.5);
+        return std::max(rounded, kNoise / 2) - kNoise / 2 + random_.bits() % kNoise + 1;
+    }
+
+private:
+    double unit_;
+    Random random_;
+};
+
+}  // namespace
+
+PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& options)
+{
+    PathGraph graph;
+    const Index vertices = target.vertex_count();
+    const Index edges = target.edge_count();
+    const Index faces = target.face_count();
+    const Index nodes = vertices + edges + faces;
+    graph.vertex_count_ = vertices;
+    graph.edge_count_ = edges;
+
+    graph.positions_.reserve(nodes);
+    graph.positions_ = target.positions();
+    for (Index e = 0; e < edges; ++e) {
+        const Index h = target.halfedge(e);
+        graph.positions_.push_back(
+            0.5 * (target.position(target.tail(h)) + target.position(target.head(h))));
+    }
+    for (Index f = 0; f < faces; ++f) {
+        const auto [a, b, c] = target.face(f);
+        graph.positions_.push_back((target.position(a) + target.position(b) + target.position(c)) /
+                                   3.0);
+    }
+
+    // The place of each halfedge among those that leave its tail.
+    std::vector<Index> ranks(target.halfedge_count());
+    graph.boundary_.assign(nodes, false);
+    graph.dart_offsets_.assign(nodes + 1, 0);
+    for (Index v = 0; v < vertices; ++v) {
+        const Index first = target.outgoing(v);
+        Index rank = 0;
+        Index h = first;
+        do {
+            ranks[h] = rank++;
+            h = target.rotated_ccw(h);
+        } while (h != first && h != kNone);
+        graph.boundary_[v] = h == kNone;
+        graph.dart_offsets_[v + 1] = 2 * rank + (h == kNone ? 1 : 0);
+    }
+    for (Index e = 0; e < edges; ++e) {
+        const bool boundary = target.is_boundary_edge(e);
+        graph.boundary_[vertices + e] = boundary;
+        graph.dart_offsets_[vertices + e + 1] = boundary ? 3 : 4;
+    }
+    for (Index f = 0; f < faces; ++f) {
+        graph.dart_offsets_[vertices + edges + f + 1] = 6;
+    }
+    for (Index node = 0; node < nodes; ++node) {
+        graph.dart_offsets_[node + 1] += graph.dart_offsets_[node];
+    }
+
+    Vec3 low = target.position(0);
+    Vec3 high = low;
+    for (const Vec3& p : target.positions()) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    graph.unit_ = (high - low).norm() / kDiagonal;
+    LengthScale scaled(graph.unit_, options);
+
+    graph.darts_.resize(graph.dart_offsets_.back());
+    const auto join = [&](Index a, Index a_place, Index b, Index b_place, Length length) {
+        const Index there = graph.dart_offsets_[a] + a_place;
+        const Index back = graph.dart_offsets_[b] + b_place;
+        graph.darts_[there] = {length, b, back};
+        graph.darts_[back] = {length, a, there};
+    };
+    // Around an edge midpoint: head, left face, tail, right face. Around a centroid: corner 0,
+    // midpoint of halfedge 0, corner 1, ...
+    for (Index e = 0; e < edges; ++e) {
+        const Index h = target.halfedge(e);
+        const Index twin = target.opposite(h);
+        const Index tail = target.tail(h);
+        const Index head = target.head(h);
+        const double half = 0.5 * (target.position(tail) - target.position(head)).norm();
+        const Index midpoint = vertices + e;
+        join(tail, 2 * ranks[h], midpoint, 2, scaled(half));
+        // At a boundary vertex the last dart belongs to the edge that has no outgoing halfedge.
+        const Index head_place = twin != kNone ? 2 * ranks[twin] : graph.degree(head) - 1;
+        join(head, head_place, midpoint, 0, scaled(half));
+    }
+    for (Index h = 0; h < target.halfedge_count(); ++h) {
+        const Index centroid = vertices + edges + TriangleMesh::face_of(h);
+        const Index place = 2 * (h % 3);
+        const Index corner = target.tail(h);
+        const Index e = target.edge(h);
+        const Index midpoint = vertices + e;
+        const Vec3& center = graph.positions_[centroid];
+        join(corner, 2 * ranks[h] + 1, centroid, place,
+             scaled((graph.positions_[corner] - center).norm()));
+        join(midpoint, target.halfedge(e) == h ? 1 : 3, centroid, place + 1,
+             scaled((graph.positions_[midpoint] - center).norm()));
+    }
+    return graph;
+}
+
+void PathGraph::set_lengths(std::span<const Length> lengths)
+{
+    for (Index d = 0; d < dart_count(); ++d) {
+        darts_[d].length = lengths[d];
+    }
+}
+
+std::uint64_t PathGraph::estimate_bytes(Index vertices, Index edges, Index faces)
+{
+    const std::uint64_t nodes = std::uint64_t{vertices} + edges + faces;
+    const std::uint64_t darts = 2 * (2 * std::uint64_t{edges} + 6 * std::uint64_t{faces});
+    return darts * sizeof(Dart) + nodes * (sizeof(Index) + sizeof(Vec3)) +
+           3 * std::uint64_t{faces} * sizeof(Index);
+}
+
+NodeElement PathGraph::element(Index node) const
+{
+    if (node < vertex_count_) {
+        return {NodeKind::vertex, node};
+    }
+    if (node < vertex_count_ + edge_count_) {
+        return {NodeKind::edge_midpoint, node - vertex_count_};
+    }
+    return {NodeKind::face_centroid, node - vertex_count_ - edge_count_};
+}
+
+double PathGraph::to_units(Length length) const
+{
+    return length == kInfiniteLength ? std::numeric_limits<double>::infinity()
+                                     : static_cast<double>(length) * unit_;
+}
+
+}  // namespace layout_embedding
