@@ -10,6 +10,9 @@
 #include "search/greedy.hh"
 #include "surface/cut_surface_search.hh"
 #include "surface/distance_field.hh"
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+#include "surface/strand_checker.hh"
+#endif
 #include "surface/strands.hh"
 
 namespace layout_embedding {
@@ -208,8 +211,28 @@ struct EmbedJob::Implementation {
         build_ground();
     }
 
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+    /// Whether the present strands pass the checker that shares nothing with them.
+    bool strands_are_sound()
+    {
+        const auto violations = check_strands(problem, *graph, ground->strands.weak_embedding());
+        if (violations.empty()) {
+            return true;
+        }
+        fail(EmbedStatus::failed,
+             make_error(ErrorCode::internal, "the search went wrong (" + violations[0].code + ": " +
+                                                 violations[0].message + ")"));
+        return false;
+    }
+#endif
+
     void accept_embedding()
     {
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+        if (!strands_are_sound()) {
+            return;
+        }
+#endif
         result.weak = ground->strands.weak_embedding();
         result.insertion_order = ground->strands.insertion_order();
         result.exact_cost = ground->greedy.embedded_cost();

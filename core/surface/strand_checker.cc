@@ -49,10 +49,7 @@ private:
         violations_.push_back({code, std::move(message)});
     }
 
-    static std::string path_name(Index e)
-    {
-        return "the path of layout edge " + std::to_string(e);
-    }
+    static std::string path_name(Index e) { return "the path of layout edge " + std::to_string(e); }
 
     void check_input()
     {
