@@ -52,12 +52,13 @@ struct Ground {
 struct EmbedJob::Implementation {
     using Clock = std::chrono::steady_clock;
 
-    Implementation(EmbeddingProblem problem_in, EmbedOptions options_in)
-        : problem(std::move(problem_in)), options(options_in)
+    Implementation(EmbeddingProblem problem_in, EmbedOptions options_in, PathGraphMaker maker)
+        : problem(std::move(problem_in)), options(options_in), make_graph(std::move(maker))
     {}
 
     EmbeddingProblem problem;
     EmbedOptions options;
+    PathGraphMaker make_graph;
     EmbedPhase phase = EmbedPhase::prepare;
     std::vector<EmbedEvent> events;
     EmbedResult result;
@@ -156,8 +157,7 @@ struct EmbedJob::Implementation {
     void build_ground()
     {
         ground.reset();
-        graph = std::make_unique<PathGraph>(
-            PathGraph::barycentric(*problem.target, {options.seed, attempt}));
+        graph = std::make_unique<PathGraph>(make_graph(*problem.target, {options.seed, attempt}));
         ground = std::make_unique<Ground>(problem, *graph, field_bytes);
     }
 
@@ -314,7 +314,14 @@ struct EmbedJob::Implementation {
 };
 
 EmbedJob::EmbedJob(EmbeddingProblem problem, EmbedOptions options)
-    : implementation_(std::make_unique<Implementation>(std::move(problem), options))
+    : EmbedJob(std::move(problem), options,
+               [](const TriangleMesh& target, const PathGraph::Options& graph_options) {
+                   return PathGraph::barycentric(target, graph_options);
+               })
+{}
+EmbedJob::EmbedJob(EmbeddingProblem problem, EmbedOptions options, PathGraphMaker make_graph)
+    : implementation_(
+          std::make_unique<Implementation>(std::move(problem), options, std::move(make_graph)))
 {}
 EmbedJob::~EmbedJob() = default;
 EmbedJob::EmbedJob(EmbedJob&&) noexcept = default;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <numeric>
 #include <set>
 
 #include "embedding_checks.hh"
 #include "embedding_instances.hh"
+#include "naive_greedy.hh"
 #include "random_instances.hh"
 
 namespace layout_embedding {
@@ -36,57 +36,6 @@ Outcome run_to_end(GreedySearch& greedy)
     }
 }
 
-/// The numbers of the layout's connected components by the given edges.
-std::vector<Index> components(const Layout& layout, const std::vector<Index>& edges)
-{
-    std::vector<Index> numbers(layout.vertex_count());
-    std::iota(numbers.begin(), numbers.end(), Index{0});
-    for (const Index e : edges) {
-        std::replace(numbers.begin(), numbers.end(), Index{numbers[layout.tail(2 * e)]},
-                     Index{numbers[layout.head(2 * e)]});
-    }
-    return numbers;
-}
-
-/// Greedy insertion as it is defined: all paths are computed anew after every insertion.
-bool insert_naively(SearchGround& ground)
-{
-    const Layout& layout = ground.strands.layout();
-    const HoleGuard guard(ground.strands);
-    std::set<Index> refused;
-    while (ground.strands.insertion_order().size() < layout.edge_count()) {
-        const auto numbers = components(layout, ground.strands.insertion_order());
-        const bool connected = std::count(numbers.begin(), numbers.end(), numbers[0]) ==
-                               static_cast<long>(numbers.size());
-        Index best = kNone;
-        Length best_cost = kInfiniteLength;
-        std::vector<Index> best_walk;
-        for (Index e = 0; e < layout.edge_count(); ++e) {
-            const bool joins = numbers[layout.tail(2 * e)] != numbers[layout.head(2 * e)];
-            if (ground.strands.is_embedded(e) || refused.count(e) != 0 || !(connected || joins)) {
-                continue;
-            }
-            ground.search.begin(e);
-            if (ground.search.run() == Found::found && ground.search.cost() < best_cost) {
-                best = e;
-                best_cost = ground.search.cost();
-                best_walk = ground.search.darts();
-            }
-        }
-        if (best == kNone) {
-            return false;
-        }
-        EXPECT_TRUE(ground.strands.insert(best, best_walk));
-        if (guard.accepts()) {
-            refused.clear();
-        } else {
-            ground.strands.undo();
-            refused.insert(best);
-        }
-    }
-    return true;
-}
-
 TEST(Greedy, equals_the_search_that_computes_all_paths_anew_after_every_insertion)
 {
     int complete = 0;
@@ -99,7 +48,7 @@ TEST(Greedy, equals_the_search_that_computes_all_paths_anew_after_every_insertio
         ASSERT_NE(outcome, Outcome::tied);
 
         SearchGround naive(instance.problem, 5);
-        EXPECT_EQ(insert_naively(naive), outcome == Outcome::complete);
+        EXPECT_EQ(test::insert_naively(naive, test::Holes::guarded), outcome == Outcome::complete);
         EXPECT_EQ(ground.strands.insertion_order(), naive.strands.insertion_order());
         const WeakEmbedding weak = ground.strands.weak_embedding();
         const WeakEmbedding expected = naive.strands.weak_embedding();
@@ -129,7 +78,7 @@ TEST(Greedy, embeds_a_spanning_tree_first)
         const Layout& layout = ground.strands.layout();
         auto tree = ground.strands.insertion_order();
         tree.resize(std::min<std::size_t>(tree.size(), layout.vertex_count() - 1));
-        const auto numbers = components(layout, tree);
+        const auto numbers = test::components(layout, tree);
         const std::set<Index> different(numbers.begin(), numbers.end());
         EXPECT_EQ(different.size(), layout.vertex_count() - tree.size());
     }
@@ -215,9 +164,8 @@ TEST(Greedy, bound_and_cost_enclose_the_best_of_all_orders)
         for (Vec3& p : target.positions) {
             p *= 0.4 + random.unit();
         }
-        const EmbeddingProblem problem =
-            instances::problem(instances::tetrahedron(), target,
-                               instances::random_landmarks(4, target, random));
+        const EmbeddingProblem problem = instances::problem(
+            instances::tetrahedron(), target, instances::random_landmarks(4, target, random));
         SearchGround ground(problem, 9);
         int order_count = 0;
         const Length best = best_of_all_orders(ground, 0, order_count);

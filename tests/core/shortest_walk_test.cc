@@ -173,8 +173,8 @@ EmbeddingProblem tiny_problem(Random& random)
     square.positions.assign(4, Vec3::Zero());
     square.add_face(std::vector<Index>{0, 1, 2});
     square.add_face(std::vector<Index>{0, 2, 3});
-    const std::vector<PolygonMesh> layouts{instances::tetrahedron(), square,
-                                           instances::pyramid(4), instances::prism(3)};
+    const std::vector<PolygonMesh> layouts{instances::tetrahedron(), square, instances::pyramid(4),
+                                           instances::prism(3)};
     const std::vector<PolygonMesh> targets{instances::octahedron(), instances::bipyramid(5),
                                            instances::bipyramid(4)};
     const PolygonMesh& layout = layouts[random.below(layouts.size())];
