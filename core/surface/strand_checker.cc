@@ -1,246 +1,232 @@
 #include "surface/strand_checker.hh"
 
 #include <algorithm>
-#include <span>
+#include <tuple>
 
 namespace layout_embedding {
 
 namespace {
 
-class StrandChecker {
+/// Dart `place` of a path runs over an edge of the path graph.
+struct Pass {
+    Index edge;  // the smaller dart
+    Index lane;  // as seen along the smaller dart
+    Index path;
+    Index place;
+
+    auto key() const { return std::tie(edge, lane, path, place); }
+};
+
+class StrandCheck {
 public:
-    StrandChecker(const EmbeddingProblem& problem, const PathGraph& graph,
-                  const WeakEmbedding& embedding)
-        : layout_(*problem.layout), graph_(graph), paths_(embedding.paths)
-    {
-        for (const Index landmark : problem.landmarks) {
-            landmark_nodes_.push_back(graph.node_of_vertex(landmark));
-        }
-    }
+    StrandCheck(const EmbeddingProblem& problem, const PathGraph& graph,
+                const WeakEmbedding& embedding)
+        : problem_(problem), graph_(graph), paths_(embedding.paths)
+    {}
 
     std::vector<StrandViolation> run()
     {
-        check_input();
+        const Layout& layout = *problem_.layout;
+        if (paths_.size() != layout.edge_count()) {
+            add("strandSize", "There are " + std::to_string(paths_.size()) + " paths for " +
+                                  std::to_string(layout.edge_count()) + " layout edges.");
+            return std::move(violations_);
+        }
+        landmarks_.assign(graph_.node_count(), kNone);
+        for (Index v = 0; v < layout.vertex_count(); ++v) {
+            landmarks_[graph_.node_of_vertex(problem_.landmarks[v])] = v;
+        }
+        for (Index path = 0; path < paths_.size(); ++path) {
+            check_path(path);
+        }
         if (violations_.empty()) {
-            for (Index e = 0; e < paths_.size(); ++e) {
-                check_walk(e);
+            sort_passes();
+        }
+        if (violations_.empty()) {
+            for (const Index node : touched_nodes()) {
+                check_node(node);
             }
-        }
-        if (violations_.empty()) {
-            collect_ends();
-        }
-        if (violations_.empty()) {
-            check_nodes();
         }
         return std::move(violations_);
     }
 
 private:
-    /// Where a path meets the neighbourhood of its `visit`-th node.
-    struct End {
-        Index dart;  // of those that leave the node
-        Index lane;  // as seen along it
-        Index path;
-        Index visit;
-    };
-
-    void report(const char* code, std::string message)
+    void add(const char* code, std::string message)
     {
         violations_.push_back({code, std::move(message)});
     }
 
-    static std::string path_name(Index e) { return "the path of layout edge " + std::to_string(e); }
-
-    void check_input()
+    void check_path(Index path)
     {
-        if (paths_.size() != layout_.edge_count()) {
-            report("pathCount", "There are " + std::to_string(paths_.size()) + " paths for " +
-                                    std::to_string(layout_.edge_count()) + " layout edges.");
-        }
-        auto sorted = landmark_nodes_;
-        std::sort(sorted.begin(), sorted.end());
-        if (sorted.size() != layout_.vertex_count() ||
-            std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() ||
-            (!sorted.empty() && sorted.back() >= graph_.node_count())) {
-            report("landmarks", "The landmarks are not one node each for " +
-                                    std::to_string(layout_.vertex_count()) + " layout vertices.");
+        const std::vector<Index>& darts = paths_[path].darts;
+        const std::string name = "The path of layout edge " + std::to_string(path);
+        if (paths_[path].lanes.size() != darts.size()) {
+            add("strandSize", name + " has not one lane per dart.");
             return;
         }
-        vertices_of_nodes_.assign(graph_.node_count(), kNone);
-        for (Index v = 0; v < landmark_nodes_.size(); ++v) {
-            vertices_of_nodes_[landmark_nodes_[v]] = v;
-        }
-    }
-
-    void check_walk(Index e)
-    {
-        const auto& [darts, lanes] = paths_[e];
-        if (lanes.size() != darts.size()) {
-            report("laneCount", "There are " + std::to_string(lanes.size()) + " lanes for the " +
-                                    std::to_string(darts.size()) + " darts of " + path_name(e) +
-                                    ".");
+        if (darts.empty()) {
             return;
         }
-        for (const Index d : darts) {
-            if (d >= graph_.dart_count()) {
-                report("dartOutOfRange", "In " + path_name(e) + " there is dart " +
-                                             std::to_string(d) + ", which does not exist.");
+        for (std::size_t i = 0; i < darts.size(); ++i) {
+            if (darts[i] >= graph_.dart_count() ||
+                (i > 0 && graph_.tail(darts[i]) != graph_.head(darts[i - 1]))) {
+                add("strandBroken", name + " is broken at dart " + std::to_string(i) + ".");
                 return;
             }
         }
-        if (darts.empty()) {
-            return;  // not embedded
+        const auto landmark = [&](Index h) {
+            return graph_.node_of_vertex(problem_.landmarks[problem_.layout->tail(h)]);
+        };
+        if (graph_.tail(darts.front()) != landmark(2 * path) ||
+            graph_.head(darts.back()) != landmark(2 * path + 1)) {
+            add("strandEnds", name + " does not run between its landmarks.");
+            return;
         }
         for (std::size_t i = 1; i < darts.size(); ++i) {
             const Index node = graph_.tail(darts[i]);
-            if (graph_.head(darts[i - 1]) != node) {
-                report("walkGap", "In " + path_name(e) + " dart " + std::to_string(i) +
-                                      " does not begin where the one before it ends.");
+            if (landmarks_[node] != kNone) {
+                add("strandThroughLandmark", name + " passes the landmark of layout vertex " +
+                                                 std::to_string(landmarks_[node]) + ".");
+                return;
             }
-            if (vertices_of_nodes_[node] != kNone) {
-                report("walkThroughLandmark", "In " + path_name(e) + " dart " + std::to_string(i) +
-                                                  " leaves the landmark of layout vertex " +
-                                                  std::to_string(vertices_of_nodes_[node]) + ".");
-            }
-        }
-        if (graph_.tail(darts.front()) != landmark_nodes_[layout_.tail(2 * e)] ||
-            graph_.head(darts.back()) != landmark_nodes_[layout_.head(2 * e)]) {
-            report("walkEnds", "The path of layout edge " + std::to_string(e) +
-                                   " does not lead from the landmark of layout vertex " +
-                                   std::to_string(layout_.tail(2 * e)) + " to that of " +
-                                   std::to_string(layout_.head(2 * e)) + ".");
         }
     }
 
-    /// Fills ends_: by node, then counter-clockwise around it. Reports wrong lanes.
-    void collect_ends()
+    /// Sorts all passes by edge and lane, the lane as seen along the smaller dart.
+    void sort_passes()
     {
-        std::vector<End> passes;  // along the smaller dart of each edge, lanes as they are claimed
-        for (Index e = 0; e < paths_.size(); ++e) {
-            for (Index i = 0; i < paths_[e].darts.size(); ++i) {
-                const Index d = paths_[e].darts[i];
-                passes.push_back({std::min(d, graph_.twin(d)), paths_[e].lanes[i], e, i});
+        for (Index path = 0; path < paths_.size(); ++path) {
+            for (Index i = 0; i < paths_[path].darts.size(); ++i) {
+                const Index dart = paths_[path].darts[i];
+                const Index edge = std::min(dart, graph_.twin(dart));
+                passes_.push_back({edge, paths_[path].lanes[i], path, i});
             }
         }
-        const auto by_dart_and_lane = [](const End& a, const End& b) {
-            return a.dart != b.dart   ? a.dart < b.dart
-                   : a.lane != b.lane ? a.lane < b.lane
-                   : a.path != b.path ? a.path < b.path
-                                      : a.visit < b.visit;
-        };
-        std::sort(passes.begin(), passes.end(), by_dart_and_lane);
-        for (auto begin = passes.begin(); begin != passes.end();) {
-            const auto end = std::find_if(
-                begin, passes.end(), [&](const End& pass) { return pass.dart != begin->dart; });
-            const auto count = static_cast<Index>(end - begin);
-            std::vector<bool> taken(count, false);
-            for (; begin != end; ++begin) {
-                if (begin->lane >= count) {
-                    report("lanes", "In " + path_name(begin->path) + " dart " +
-                                        std::to_string(begin->visit) + " has lane " +
-                                        std::to_string(begin->lane) + " of " +
-                                        std::to_string(count) + ".");
-                    continue;
+        const auto less = [](const Pass& a, const Pass& b) { return a.key() < b.key(); };
+        std::sort(passes_.begin(), passes_.end(), less);
+        for (std::size_t first = 0; first < passes_.size();) {
+            std::size_t last = first;
+            while (last < passes_.size() && passes_[last].edge == passes_[first].edge) {
+                ++last;
+            }
+            const Index count = static_cast<Index>(last - first);
+            bool good = true;
+            for (std::size_t i = first; i < last; ++i) {
+                Pass& pass = passes_[i];
+                good = good && pass.lane < count;
+                if (dart_of(pass) != pass.edge) {
+                    pass.lane = count - 1 - pass.lane;
                 }
-                // Lanes count from the right of the path, which may run against the dart.
-                const Index here = paths_[begin->path].darts[begin->visit];
-                const Index mirrored = count - 1 - begin->lane;
-                const Index lane = here == begin->dart ? begin->lane : mirrored;
-                if (taken[lane]) {
-                    report("lanes", "In " + path_name(begin->path) + " dart " +
-                                        std::to_string(begin->visit) +
-                                        " has a lane that another pass has too.");
-                }
-                taken[lane] = true;
-                ends_.push_back({here, begin->lane, begin->path, begin->visit});
-                ends_.push_back({graph_.twin(here), mirrored, begin->path, begin->visit + 1});
             }
-        }
-        // Darts that leave a node are consecutive and counter-clockwise, and so are the lanes of
-        // one of them, from right to left.
-        std::sort(ends_.begin(), ends_.end(), by_dart_and_lane);
-    }
-
-    void check_nodes()
-    {
-        for (auto begin = ends_.begin(); begin != ends_.end();) {
-            const Index node = graph_.tail(begin->dart);
-            const auto end = std::find_if(begin, ends_.end(), [&](const End& other) {
-                return graph_.tail(other.dart) != node;
-            });
-            if (vertices_of_nodes_[node] == kNone) {
-                check_chords(node, {begin, end});
-            } else {
-                check_order(vertices_of_nodes_[node], {begin, end});
+            std::sort(passes_.begin() + static_cast<std::ptrdiff_t>(first),
+                      passes_.begin() + static_cast<std::ptrdiff_t>(last), less);
+            for (std::size_t i = first; i < last; ++i) {
+                good = good && passes_[i].lane == i - first;
             }
-            begin = end;
+            if (!good) {
+                add("strandLanes", "The lanes of the " + std::to_string(count) +
+                                       " passes over dart " + std::to_string(passes_[first].edge) +
+                                       " are not 0 to " + std::to_string(count - 1) + ".");
+            }
+            first = last;
         }
     }
+    Index dart_of(const Pass& pass) const { return paths_[pass.path].darts[pass.place]; }
 
-    static bool same_chord(const End& a, const End& b)
+    std::vector<Index> touched_nodes() const
     {
-        return a.path == b.path && a.visit == b.visit;
-    }
-
-    void check_chords(Index node, std::span<const End> ends)
-    {
-        // Chords are unlinked if they match like parentheses.
-        std::vector<const End*> open;
-        for (const End& end : ends) {
-            if (!open.empty() && same_chord(*open.back(), end)) {
-                open.pop_back();
-            } else {
-                open.push_back(&end);
+        std::vector<Index> nodes;
+        for (const WeakPath& path : paths_) {
+            for (const Index dart : path.darts) {
+                nodes.push_back(graph_.tail(dart));
+                nodes.push_back(graph_.head(dart));
             }
         }
-        if (open.empty()) {
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        return nodes;
+    }
+
+    /// The strand ends around a node counter-clockwise, at a boundary from the hole on: each the
+    /// path, and how many of its darts come before the node.
+    std::vector<std::pair<Index, Index>> ends_around(Index node) const
+    {
+        std::vector<std::pair<Index, Index>> ends;
+        const Index first_dart = graph_.first_dart(node);
+        for (Index dart = first_dart; dart < first_dart + graph_.degree(node); ++dart) {
+            const Index edge = std::min(dart, graph_.twin(dart));
+            const auto begin = std::lower_bound(passes_.begin(), passes_.end(), edge,
+                                                [](const Pass& p, Index e) { return p.edge < e; });
+            auto end = begin;
+            while (end != passes_.end() && end->edge == edge) {
+                ++end;
+            }
+            // Looking along a dart that leaves the node, counter-clockwise is from right to left.
+            const std::size_t count = static_cast<std::size_t>(end - begin);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Pass& pass =
+                    begin[static_cast<std::ptrdiff_t>(dart == edge ? i : count - 1 - i)];
+                ends.emplace_back(pass.path, pass.place + (dart_of(pass) == dart ? 0 : 1));
+            }
+        }
+        return ends;
+    }
+
+    void check_node(Index node)
+    {
+        const auto ends = ends_around(node);
+        if (landmarks_[node] != kNone) {
+            check_order(node, ends);
             return;
         }
-        // Of what is left over, the two nearest ends of one chord enclose just one end of another.
-        std::size_t width = open.size();
-        std::size_t first = 0;
-        for (std::size_t i = 0; i < open.size(); ++i) {
-            for (std::size_t j = i + 1; j < std::min(open.size(), i + width); ++j) {
-                if (same_chord(*open[i], *open[j])) {
-                    first = i;
-                    width = j - i;
-                }
+        // Chords do not cross if their ends match like parentheses.
+        std::vector<std::pair<Index, Index>> open;
+        for (const auto& end : ends) {
+            if (!open.empty() && open.back() == end) {
+                open.pop_back();
+            } else {
+                open.push_back(end);
             }
         }
-        report("strandsCross", "At path-graph node " + std::to_string(node) + " " +
-                                   path_name(open[first]->path) + " and " +
-                                   path_name(open[first + 1]->path) + " cross.");
+        if (!open.empty()) {
+            add("strandsCross", "The paths of the layout edges " + std::to_string(open[0].first) +
+                                    " and " + std::to_string(open[1].first) +
+                                    " or others cross at node " + std::to_string(node) + ".");
+        }
     }
 
-    void check_order(Index vertex, std::span<const End> ends)
+    void check_order(Index node, const std::vector<std::pair<Index, Index>>& ends)
     {
-        std::vector<Index> expected;
-        for (const Index h : layout_.outgoing(vertex)) {
-            if (!paths_[Layout::edge(h)].darts.empty()) {
-                expected.push_back(h);
+        const Layout& layout = *problem_.layout;
+        std::size_t descents = 0;
+        Index previous = 0;
+        Index first = kNone;
+        for (const auto& [path, place] : ends) {
+            const Index rank = layout.rank(place == 0 ? 2 * path : 2 * path + 1);
+            if (first == kNone) {
+                first = rank;
+            } else {
+                descents += rank < previous ? 1 : 0;
             }
+            previous = rank;
         }
-        std::vector<Index> found;
-        for (const End& end : ends) {
-            found.push_back(2 * end.path + (end.visit == 0 ? 0 : 1));
+        const bool cyclic = !graph_.is_boundary(node);
+        if (cyclic && first != kNone && first < previous) {
+            ++descents;  // from the last end around to the first
         }
-        if (!graph_.is_boundary(landmark_nodes_[vertex])) {
-            const auto first = std::find(found.begin(), found.end(), expected.front());
-            std::rotate(found.begin(), first, found.end());
-        }
-        if (found != expected) {
-            report("landmarkOrder", "Around the landmark of layout vertex " +
-                                        std::to_string(vertex) +
-                                        " the strands are not in the layout's order.");
+        const bool several = ends.size() > 1;
+        if (cyclic ? several && descents != 1 : descents != 0) {
+            add("strandOrder", "The strands at the landmark of layout vertex " +
+                                   std::to_string(landmarks_[node]) +
+                                   " do not follow the layout's order.");
         }
     }
 
-    const Layout& layout_;
+    const EmbeddingProblem& problem_;
     const PathGraph& graph_;
     const std::vector<WeakPath>& paths_;
-    std::vector<Index> landmark_nodes_;
-    std::vector<Index> vertices_of_nodes_;  // per node
-    std::vector<End> ends_;
+    std::vector<Index> landmarks_;  // per node: the layout vertex, kNone elsewhere
+    std::vector<Pass> passes_;
     std::vector<StrandViolation> violations_;
 };
 
@@ -249,7 +235,7 @@ private:
 std::vector<StrandViolation> check_strands(const EmbeddingProblem& problem, const PathGraph& graph,
                                            const WeakEmbedding& embedding)
 {
-    return StrandChecker(problem, graph, embedding).run();
+    return StrandCheck(problem, graph, embedding).run();
 }
 
 }  // namespace layout_embedding

@@ -3,36 +3,32 @@
 #include <string>
 #include <vector>
 
-#include "base/types.hh"
 #include "layout/embedding_problem.hh"
 #include "surface/path_graph.hh"
 #include "surface/weak_embedding.hh"
 
 namespace layout_embedding {
 
-/// One reason why paths are no strands of an embedding.
+/// One reason why strands are no weak embedding.
 struct StrandViolation {
-    /// A stable camelCase name, for example "strandsCross".
+    /// A stable camelCase name.
     std::string code;
     /// One sentence with the ids concerned.
     std::string message;
 };
 
-/// Confirms from the definitions alone (design, Sec. 1) that the paths of `embedding` are strands
-/// that do not cross. Independent by intent: it shares nothing with Strands and believes nothing.
-/// Partial embeddings are welcome. Empty: all is well. Otherwise, the violations of the first of
-/// these groups that has any:
-/// - there is a path for each layout edge (pathCount); landmarks are different nodes of the graph
-///   (landmarks);
-/// - each path has one lane per dart (laneCount), its darts exist (dartOutOfRange), follow each
-///   other (walkGap), lead from the landmark of its edge's tail to that of its head (walkEnds), and
-///   meet no landmark in between (walkThroughLandmark);
-/// - the lanes on each edge of the graph are 0 .. m-1, each of them once (lanes);
-/// - around a node that is no landmark the strands that pass it are unlinked chords (strandsCross);
-///   the strands at a landmark leave it in the layout's cyclic order, on the target's boundary in
-///   its linear order (landmarkOrder).
-///
-/// O(n log n) for paths of n darts in total.
+/// Confirms directly from the definitions that `embedding`, complete or not (empty paths are left
+/// out), is a set of strands that nowhere cross; a second opinion on what surface/strands.hh and
+/// the search say, with which it shares nothing. Ids in it need not be sound. Codes:
+/// - strandSize: not one path per layout edge, or not one lane per dart;
+/// - strandBroken: a dart that does not exist or does not start where the one before ends;
+/// - strandEnds: a path that does not run between the landmarks of its layout edge;
+/// - strandThroughLandmark: a path with a landmark inside;
+/// - strandLanes: the lanes on an edge are not 0 .. m-1;
+/// - strandsCross: two passes of a node that cross;
+/// - strandOrder: strands at a landmark against the layout's cyclic order, or on the target's
+///   boundary against its linear order.
+/// At most one violation per path, edge or node. O(n log n) in the number of darts in all paths.
 std::vector<StrandViolation> check_strands(const EmbeddingProblem& problem, const PathGraph& graph,
                                            const WeakEmbedding& embedding);
 

@@ -8,6 +8,7 @@
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
 #include "mesh/mesh_reader.hh"
+#include "mesh/validation.hh"
 #include "test_data.hh"
 #include "zoo.hh"
 
