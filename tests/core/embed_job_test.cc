@@ -5,7 +5,6 @@
 
 #include "embedding/checker.hh"
 #include "embedding_checks.hh"
-#include "embedding_instances.hh"
 #include "random_instances.hh"
 #include "zoo.hh"
 
@@ -21,7 +20,7 @@ struct Input {
     PolygonMesh target;
     std::vector<Index> landmarks;
 
-    EmbeddingProblem problem() const { return instances::problem(layout, target, landmarks); }
+    EmbeddingProblem problem() const { return test::problem_of(layout, target, landmarks); }
 };
 
 std::vector<Input> all_inputs()

@@ -8,6 +8,7 @@
 #include "embedding_instances.hh"
 #include "naive_greedy.hh"
 #include "random_instances.hh"
+#include "zoo.hh"
 
 namespace layout_embedding {
 namespace {
@@ -20,8 +21,8 @@ using Outcome = GreedySearch::Outcome;
 std::vector<test::Instance> all_problems()
 {
     std::vector<test::Instance> problems = test::random_instances(61, 40);
-    for (auto& instance : instances::random_instances(62, 1)) {
-        problems.push_back({instance.name, instance.problem});
+    for (auto& instance : test::embedded_instances(62)) {
+        problems.push_back({instance.name, std::move(instance.problem)});
     }
     return problems;
 }
@@ -160,12 +161,12 @@ TEST(Greedy, bound_and_cost_enclose_the_best_of_all_orders)
     int suboptimal = 0;
     for (int round = 0; round < 10; ++round) {
         // Six edges on closed targets.
-        PolygonMesh target = instances::on_sphere(instances::subdivided(instances::octahedron()));
+        PolygonMesh target = zoo::subdivided(zoo::octahedron());
         for (Vec3& p : target.positions) {
             p *= 0.4 + random.unit();
         }
-        const EmbeddingProblem problem = instances::problem(
-            instances::tetrahedron(), target, instances::random_landmarks(4, target, random));
+        const EmbeddingProblem problem = test::problem_of(
+            zoo::tetrahedron(), target, zoo::random_landmarks(target, 4, random.bits()));
         SearchGround ground(problem, 9);
         int order_count = 0;
         const Length best = best_of_all_orders(ground, 0, order_count);

@@ -3,9 +3,9 @@
 #include <map>
 
 #include "embedding_checks.hh"
-#include "embedding_instances.hh"
 #include "random_instances.hh"
 #include "surface/strand_checker.hh"
+#include "zoo.hh"
 
 // The shortest walk in the cut surface against its definition: all walks of darts up to a length
 // are enumerated, each with all lanes it could take among the strands that are there, and the
@@ -173,18 +173,16 @@ EmbeddingProblem tiny_problem(Random& random)
     square.positions.assign(4, Vec3::Zero());
     square.add_face(std::vector<Index>{0, 1, 2});
     square.add_face(std::vector<Index>{0, 2, 3});
-    const std::vector<PolygonMesh> layouts{instances::tetrahedron(), square, instances::pyramid(4),
-                                           instances::prism(3)};
-    const std::vector<PolygonMesh> targets{instances::octahedron(), instances::bipyramid(5),
-                                           instances::bipyramid(4)};
+    const std::vector<PolygonMesh> layouts{zoo::tetrahedron(), square, zoo::pyramid(4),
+                                           zoo::prism(3)};
+    const std::vector<PolygonMesh> targets{zoo::octahedron(), zoo::bipyramid(5), zoo::bipyramid(4)};
     const PolygonMesh& layout = layouts[random.below(layouts.size())];
     PolygonMesh target = targets[random.below(targets.size())];
     for (Vec3& p : target.positions) {
         p = p * (0.5 + random.unit()) + 0.3 * Vec3(random.unit(), random.unit(), random.unit());
     }
-    return instances::problem(
-        layout, target,
-        instances::random_landmarks(static_cast<Index>(layout.positions.size()), target, random));
+    return test::problem_of(layout, target,
+                            zoo::random_landmarks(target, layout.vertex_count(), random.bits()));
 }
 
 TEST(ShortestWalk, no_shorter_walk_is_a_strand_with_any_lanes)

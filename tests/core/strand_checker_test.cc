@@ -8,15 +8,16 @@
 #include "embedding_checks.hh"
 #include "embedding_instances.hh"
 #include "random_instances.hh"
+#include "zoo.hh"
 
 namespace layout_embedding {
 namespace {
 
-using instances::Instance;
+using Instance = test::EmbeddedInstance;
 
 const std::vector<Instance>& all_instances()
 {
-    static const std::vector<Instance> instances = instances::random_instances(41, 1);
+    static const std::vector<Instance> instances = test::embedded_instances(41);
     return instances;
 }
 
@@ -277,10 +278,9 @@ TEST(StrandChecker, on_the_boundary_the_order_is_linear)
     fan.add_face(std::vector<Index>{0, 2, 3});
     rotated.add_face(std::vector<Index>{0, 2, 3});
     rotated.add_face(std::vector<Index>{0, 3, 1});
-    Random random(44);
-    const PolygonMesh target = instances::triangulated(instances::disk(6), random);
+    const PolygonMesh target = zoo::grid_disk(6, 6);
     for (const Index center : {3U, 24U}) {
-        const EmbeddingProblem problem = instances::problem(fan, target, {center, 16, 38, 30});
+        const EmbeddingProblem problem = test::problem_of(fan, target, {center, 16, 38, 30});
         test::SearchGround ground(problem, 1);
         for (Index e = 0; e < problem.layout->edge_count(); ++e) {
             if (problem.layout->tail(2 * e) == 0 || problem.layout->head(2 * e) == 0) {
