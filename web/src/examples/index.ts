@@ -1,47 +1,47 @@
-import type { MeshArrays } from 'layout-embedding';
-import { beast } from './beast';
-import { knot } from './knot';
-import { pebble } from './pebble';
-import { flattened, rounded, type Polygons } from './polygons';
+import type { MeshArrays } from "layout-embedding";
+import { beast } from "./beast";
+import { knot } from "./knot";
+import { pebble } from "./pebble";
+import { flattened, rounded, type Polygons } from "./polygons";
 
 /** A layout, a target and landmarks made by the page itself. */
 export interface Example {
-  readonly title: string;
-  readonly make: () => {
-    readonly layout: MeshArrays;
-    readonly target: MeshArrays;
-    readonly landmarks: Uint32Array;
-  };
+    readonly title: string;
+    readonly make: () => {
+        readonly layout: MeshArrays;
+        readonly target: MeshArrays;
+        readonly landmarks: Uint32Array;
+    };
 }
 
 function arrays(name: string, polygons: Polygons): MeshArrays {
-  return {
-    name,
-    positions: rounded(polygons.positions),
-    ...flattened(polygons.faces),
-  };
+    return {
+        name,
+        positions: rounded(polygons.positions),
+        ...flattened(polygons.faces),
+    };
 }
 
 function example(
-  title: string,
-  name: string,
-  build: () => { layout: Polygons; target: Polygons; landmarks: number[] },
+    title: string,
+    name: string,
+    build: () => { layout: Polygons; target: Polygons; landmarks: number[] },
 ): Example {
-  return {
-    title,
-    make: () => {
-      const { layout, target, landmarks } = build();
-      return {
-        layout: arrays(`${name} layout`, layout),
-        target: arrays(`${name} surface`, target),
-        landmarks: Uint32Array.from(landmarks),
-      };
-    },
-  };
+    return {
+        title,
+        make: () => {
+            const { layout, target, landmarks } = build();
+            return {
+                layout: arrays(`${name} layout`, layout),
+                target: arrays(`${name} surface`, target),
+                landmarks: Uint32Array.from(landmarks),
+            };
+        },
+    };
 }
 
 export const examples: readonly Example[] = [
-  example('Beast: a cage on a smooth animal', 'beast', beast),
-  example('Pebble: a cube, twisted', 'pebble', pebble),
-  example('Knot: a ring, tied', 'knot', knot),
+    example("Beast: a cage on a smooth animal", "beast", beast),
+    example("Pebble: a cube, twisted", "pebble", pebble),
+    example("Knot: a ring, tied", "knot", knot),
 ];

@@ -1,111 +1,113 @@
-import type { Actions } from '../model/actions';
-import { formatLength } from '../model/describe';
-import type { AppState, Item } from '../model/state';
-import type { Store } from '../model/store';
-import { onThemeChange } from '../view3d/colors';
-import { LayoutView, TargetView } from '../view3d/views';
-import { element, setText } from './dom';
+import type { Actions } from "../model/actions";
+import { formatLength } from "../model/describe";
+import type { AppState, Item } from "../model/state";
+import type { Store } from "../model/store";
+import { onThemeChange } from "../view3d/colors";
+import { LayoutView, TargetView } from "../view3d/views";
+import { element, setText } from "./dom";
 
-const keys = 'Arrow keys turn it, plus and minus zoom.';
+const keys = "Arrow keys turn it, plus and minus zoom.";
 
 /** Both 3D views and the options beside them. Throws if WebGL is not available. */
 export function stage(
-  store: Store<AppState>,
-  actions: Actions,
+    store: Store<AppState>,
+    actions: Actions,
 ): { resetView: () => void; screenshot: () => Promise<Blob> } {
-  const targetView = new TargetView(element('target-view', HTMLElement), `Target in 3D. ${keys}`);
-  const layoutView = new LayoutView(element('layout-view', HTMLElement), `Layout in 3D. ${keys}`);
-  const views = [targetView, layoutView];
-  for (const view of views) {
-    view.applyTheme();
-    view.onHover = (item) => actions.highlight(item);
-  }
-  onThemeChange(() => {
-    for (const view of views) view.applyTheme();
-    const { target, result, layout, patchesShown } = store.get();
-    targetView.setSurface(target, patchesShown ? result : null, layout);
-  });
+    const targetView = new TargetView(element("target-view", HTMLElement), `Target in 3D. ${keys}`);
+    const layoutView = new LayoutView(element("layout-view", HTMLElement), `Layout in 3D. ${keys}`);
+    const views = [targetView, layoutView];
+    for (const view of views) {
+        view.applyTheme();
+        view.onHover = (item) => actions.highlight(item);
+    }
+    onThemeChange(() => {
+        for (const view of views) view.applyTheme();
+        const { target, result, layout, patchesShown } = store.get();
+        targetView.setSurface(target, patchesShown ? result : null, layout);
+    });
 
-  targetView.viewer.onPoseChange = () => {
-    if (store.get().camerasLinked) layoutView.viewer.setPose(targetView.viewer.pose());
-  };
-  layoutView.viewer.onPoseChange = () => {
-    if (store.get().camerasLinked) targetView.viewer.setPose(layoutView.viewer.pose());
-  };
+    targetView.viewer.onPoseChange = () => {
+        if (store.get().camerasLinked) layoutView.viewer.setPose(targetView.viewer.pose());
+    };
+    layoutView.viewer.onPoseChange = () => {
+        if (store.get().camerasLinked) targetView.viewer.setPose(layoutView.viewer.pose());
+    };
 
-  store.watch(
-    (state) => [state.target] as const,
-    (target) => targetView.setTarget(target),
-  );
-  store.watch(
-    (state) => [state.layout] as const,
-    (layout) => layoutView.setLayout(layout),
-  );
-  store.watch(
-    (state) =>
-      [state.target, state.result, state.layout, state.patchesShown, state.landmarks] as const,
-    (target, result, layout, patchesShown, landmarks) => {
-      targetView.setSurface(target, patchesShown ? result : null, layout);
-      targetView.setLandmarks(target, landmarks?.ids ?? null);
-    },
-  );
-  store.watch(
-    (state) => [state.result, state.livePaths] as const,
-    (result, livePaths) => targetView.setPaths(result, livePaths),
-  );
-  store.watch(
-    (state) => [state.wireframe] as const,
-    (wireframe) => targetView.setWireframe(wireframe),
-  );
-  store.watch(
-    (state) => [state.highlight, state.result, state.livePaths, state.layout] as const,
-    (highlight) => {
-      for (const view of views) view.highlight(highlight);
-      setText('target-hover', highlight ? describe(highlight, store.get()) : '');
-    },
-  );
-  store.watch(
-    (state) => [state.layoutShown] as const,
-    (shown) => {
-      element('layout-view', HTMLElement).hidden = !shown;
-      element('stage', HTMLElement).classList.toggle('alone', !shown);
-    },
-  );
-
-  const resetView = () => {
-    for (const view of views) view.viewer.resetView();
-  };
-  element('reset-view', HTMLButtonElement).addEventListener('click', resetView);
-  checkbox('show-patches', 'patchesShown');
-  checkbox('show-wireframe', 'wireframe');
-  checkbox('show-layout', 'layoutShown');
-  checkbox('link-cameras', 'camerasLinked');
-  return { resetView, screenshot: () => targetView.viewer.screenshot() };
-
-  function checkbox(
-    id: string,
-    field: 'layoutShown' | 'patchesShown' | 'wireframe' | 'camerasLinked',
-  ): void {
-    const box = element(id, HTMLInputElement);
-    box.addEventListener('change', () => actions.show({ [field]: box.checked }));
     store.watch(
-      (state) => [state[field]] as const,
-      (on) => {
-        box.checked = on;
-      },
+        (state) => [state.target],
+        (target) => targetView.setTarget(target),
     );
-  }
+    store.watch(
+        (state) => [state.layout],
+        (layout) => layoutView.setLayout(layout),
+    );
+    store.watch(
+        (state) => [state.target, state.result, state.layout, state.patchesShown, state.landmarks],
+        (target, result, layout, patchesShown, landmarks) => {
+            targetView.setSurface(target, patchesShown ? result : null, layout);
+            targetView.setLandmarks(target, landmarks?.ids ?? null);
+        },
+    );
+    store.watch(
+        (state) => [state.result, state.livePaths],
+        (result, livePaths) => targetView.setPaths(result, livePaths),
+    );
+    store.watch(
+        (state) => [state.wireframe],
+        (wireframe) => targetView.setWireframe(wireframe),
+    );
+    store.watch(
+        (state) => [state.highlight, state.result, state.livePaths, state.layout],
+        (highlight) => {
+            for (const view of views) view.highlight(highlight);
+            setText("target-hover", highlight ? describe(highlight, store.get()) : "");
+        },
+    );
+    store.watch(
+        (state) => [state.layoutShown],
+        (shown) => {
+            element("layout-view", HTMLElement).hidden = !shown;
+            element("stage", HTMLElement).classList.toggle("alone", !shown);
+        },
+    );
+
+    const resetView = () => {
+        for (const view of views) view.viewer.resetView();
+    };
+    element("reset-view", HTMLButtonElement).addEventListener("click", resetView);
+    checkbox("show-patches", "patchesShown");
+    checkbox("show-wireframe", "wireframe");
+    checkbox("show-layout", "layoutShown");
+    checkbox("link-cameras", "camerasLinked");
+    return { resetView, screenshot: () => targetView.viewer.screenshot() };
+
+    function checkbox(
+        id: string,
+        field: "layoutShown" | "patchesShown" | "wireframe" | "camerasLinked",
+    ): void {
+        const box = element(id, HTMLInputElement);
+        box.addEventListener("change", () => actions.show({ [field]: box.checked }));
+        store.watch(
+            (state) => [state[field]],
+            (on) => {
+                box.checked = on;
+            },
+        );
+    }
 }
 
 function describe(item: Item, { layout, landmarks, result }: AppState): string {
-  if (item.kind === 'vertex') {
-    const landmark = landmarks?.ids[item.id];
-    return `Layout vertex ${item.id}` + (landmark === undefined ? '' : ` on target vertex ${landmark}`);
-  }
-  const ends = layout ? [...layout.edges.subarray(2 * item.id, 2 * item.id + 2)] : [];
-  const length = result?.edges[item.id]?.length;
-  return (
-    `Edge ${item.id}, from ${ends.join(' to ')}` +
-    (length === undefined ? '' : `, ${formatLength(length)} long`)
-  );
+    if (item.kind === "vertex") {
+        const landmark = landmarks?.ids[item.id];
+        return (
+            `Layout vertex ${item.id}` +
+            (landmark === undefined ? "" : ` on target vertex ${landmark}`)
+        );
+    }
+    const ends = layout ? [...layout.edges.subarray(2 * item.id, 2 * item.id + 2)] : [];
+    const length = result?.edges[item.id]?.length;
+    return (
+        `Edge ${item.id}, from ${ends.join(" to ")}` +
+        (length === undefined ? "" : `, ${formatLength(length)} long`)
+    );
 }
