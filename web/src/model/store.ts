@@ -9,7 +9,7 @@ export interface Store<State extends object> {
      */
     watch<Fields extends unknown[] | []>(
         select: (state: Readonly<State>) => Fields,
-        listener: (...fields: NoInfer<Fields>) => void,
+        listener: (...fields: Fields) => void,
     ): void;
 }
 

@@ -48,8 +48,9 @@ export function solvePanel(store: Store<AppState>, actions: Actions): void {
             state.layout,
             state.target,
         ],
-        (phase, result) => {
-            if (phase) return;
+        () => {
+            const { activity, result } = store.get();
+            if (activity) return;
             setText("status", result ? statusSentence(store.get()) : waitingSentence(store.get()));
         },
     );

@@ -1,3 +1,4 @@
+import type { EmbedResult, LayoutInfo, TargetInfo } from "layout-embedding";
 import type { Actions } from "../model/actions";
 import { formatLength } from "../model/describe";
 import type { AppState, Item } from "../model/state";
@@ -22,8 +23,7 @@ export function stage(
     }
     onThemeChange(() => {
         for (const view of views) view.applyTheme();
-        const { target, result, layout, patchesShown } = store.get();
-        targetView.setSurface(target, patchesShown ? result : null, layout);
+        targetView.setSurface(...surfaceOf(store.get()));
     });
 
     targetView.viewer.onPoseChange = () => {
@@ -41,12 +41,13 @@ export function stage(
         (state) => [state.layout],
         (layout) => layoutView.setLayout(layout),
     );
+    store.watch(surfaceOf, (target, result, layout) => {
+        targetView.setSurface(target, result, layout);
+    });
+    // After the surface: the dots take their normals from it.
     store.watch(
-        (state) => [state.target, state.result, state.layout, state.patchesShown, state.landmarks],
-        (target, result, layout, patchesShown, landmarks) => {
-            targetView.setSurface(target, patchesShown ? result : null, layout);
-            targetView.setLandmarks(target, landmarks?.ids ?? null);
-        },
+        (state) => [state.target, state.landmarks],
+        (target, landmarks) => targetView.setLandmarks(target, landmarks?.ids ?? null),
     );
     store.watch(
         (state) => [state.result, state.livePaths],
@@ -58,7 +59,8 @@ export function stage(
     );
     store.watch(
         (state) => [state.highlight, state.result, state.livePaths, state.layout],
-        (highlight) => {
+        () => {
+            const { highlight } = store.get();
             for (const view of views) view.highlight(highlight);
             setText("target-hover", highlight ? describe(highlight, store.get()) : "");
         },
@@ -94,6 +96,12 @@ export function stage(
             },
         );
     }
+}
+
+/** What the target's surface is made from: building it anew is dear, so nothing else counts. */
+function surfaceOf(state: AppState): [TargetInfo | null, EmbedResult | null, LayoutInfo | null] {
+    const result = state.patchesShown ? state.result : null;
+    return [state.target, result, result ? state.layout : null];
 }
 
 function describe(item: Item, { layout, landmarks, result }: AppState): string {
