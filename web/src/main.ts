@@ -1,18 +1,18 @@
-import { createSession } from "./session";
-import { examples } from "./examples/index";
-import { Actions } from "./model/actions";
-import { Engine } from "./model/engine";
-import { initialState } from "./model/state";
-import { createStore } from "./model/store";
-import { downloadsPanel } from "./panels/downloads";
-import { element } from "./panels/dom";
-import { dropAnywhere } from "./panels/drop";
-import { inputPanel } from "./panels/input";
-import { problemsPanel } from "./panels/problems";
-import { resultPanel } from "./panels/result";
-import { shortcuts } from "./panels/shortcuts";
-import { solvePanel, toggleSolve } from "./panels/solve";
-import { stage } from "./panels/stage";
+import { createSession } from "./session.js";
+import { examples } from "./examples/index.js";
+import { Actions } from "./model/actions.js";
+import { Engine } from "./model/engine.js";
+import { initialState } from "./model/state.js";
+import { createStore } from "./model/store.js";
+import { downloadsPanel } from "./panels/downloads.js";
+import { element } from "./panels/dom.js";
+import { dropAnywhere } from "./panels/drop.js";
+import { inputPanel } from "./panels/input.js";
+import { problemsPanel } from "./panels/problems.js";
+import { resultPanel } from "./panels/result.js";
+import { shortcuts } from "./panels/shortcuts.js";
+import { solvePanel, toggleSolve } from "./panels/solve.js";
+import { stage } from "./panels/stage.js";
 import "./style.css";
 
 // State flows one way: actions change the store, views redraw what they watch in it.

@@ -1,5 +1,5 @@
 import { createWorkerClient } from "layout-embedding/worker";
-import type { WorkerSession } from "./model/engine";
+import type { WorkerSession } from "./model/engine.js";
 
 /** A session of the package in a worker of its own. */
 export async function createSession(): Promise<WorkerSession> {

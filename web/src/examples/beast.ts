@@ -1,4 +1,4 @@
-import { cellSurface, subdivided, triangulated, type Polygons } from "./polygons";
+import { cellSurface, subdivided, triangulated, type Polygons } from "./polygons.js";
 
 // Lattice lines of the cage; the first entry of each belongs to lattice coordinate `first`.
 const along = { first: -1, at: [-2.5, -1.55, -0.75, 0.75, 1.6, 2.75] };

@@ -1,8 +1,8 @@
 import type { MeshArrays } from "layout-embedding";
-import { beast } from "./beast";
-import { knot } from "./knot";
-import { pebble } from "./pebble";
-import { flattened, rounded, type Polygons } from "./polygons";
+import { beast } from "./beast.js";
+import { knot } from "./knot.js";
+import { pebble } from "./pebble.js";
+import { flattened, rounded, type Polygons } from "./polygons.js";
 
 /** A layout, a target and landmarks made by the page itself. */
 export interface Example {

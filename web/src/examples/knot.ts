@@ -1,4 +1,4 @@
-import { triangulated, type Polygons } from "./polygons";
+import { triangulated, type Polygons } from "./polygons.js";
 
 type Point = [number, number, number];
 

@@ -1,4 +1,4 @@
-import { subdivided, triangulated, type Polygons } from "./polygons";
+import { subdivided, triangulated, type Polygons } from "./polygons.js";
 
 const cube: Polygons = {
     positions: [-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1],

@@ -1,10 +1,10 @@
 import type { MeshInput, SolveOptions } from "layout-embedding";
-import type { Example } from "../examples/index";
-import { phaseWords, titleOf } from "./describe";
-import type { Engine } from "./engine";
-import { assignRoles, look } from "./files";
-import type { Activity, AppState, Item, Problem } from "./state";
-import type { Store } from "./store";
+import type { Example } from "../examples/index.js";
+import { phaseWords, titleOf } from "./describe.js";
+import type { Engine } from "./engine.js";
+import { assignRoles, look } from "./files.js";
+import type { Activity, AppState, Item, Problem } from "./state.js";
+import type { Store } from "./store.js";
 
 /** The same file or arrays can be read again: file contents are fetched each time. */
 export type Source = File | MeshInput;

@@ -7,9 +7,9 @@ export interface Store<State extends object> {
      * Calls `listener` now and whenever one of the fields `select` returns has changed (compared by
      * identity). Views use this to redraw only what concerns them.
      */
-    watch<Fields extends unknown[] | []>(
-        select: (state: Readonly<State>) => Fields,
-        listener: (...fields: Fields) => void,
+    watch<Fields extends unknown[]>(
+        select: (state: Readonly<State>) => readonly [...Fields],
+        listener: (...fields: NoInfer<Fields>) => void,
     ): void;
 }
 

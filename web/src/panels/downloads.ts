@@ -1,7 +1,7 @@
-import type { Actions } from "../model/actions";
-import type { AppState } from "../model/state";
-import type { Store } from "../model/store";
-import { download, element } from "./dom";
+import type { Actions } from "../model/actions.js";
+import type { AppState } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { download, element } from "./dom.js";
 
 /** Buttons for the result's files and a picture; returns what the shortcut does. */
 export function downloadsPanel(

@@ -1,4 +1,4 @@
-import { element } from "./dom";
+import { element } from "./dom.js";
 
 /** Files may be dropped anywhere on the page. */
 export function dropAnywhere(open: (files: readonly File[]) => void): void {

@@ -1,9 +1,9 @@
-import { examples } from "../examples/index";
-import type { Actions } from "../model/actions";
-import { formatCount } from "../model/describe";
-import type { AppState } from "../model/state";
-import type { Store } from "../model/store";
-import { create, element, setText } from "./dom";
+import { examples } from "../examples/index.js";
+import type { Actions } from "../model/actions.js";
+import { formatCount } from "../model/describe.js";
+import type { AppState } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { create, element, setText } from "./dom.js";
 
 /** Examples, files, landmarks. */
 export function inputPanel(store: Store<AppState>, actions: Actions): void {

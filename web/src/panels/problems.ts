@@ -1,7 +1,7 @@
-import type { Actions } from "../model/actions";
-import type { AppState, Problem } from "../model/state";
-import type { Store } from "../model/store";
-import { create, element } from "./dom";
+import type { Actions } from "../model/actions.js";
+import type { AppState, Problem } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { create, element } from "./dom.js";
 
 /** Errors as title, cause and advice, each until it is dismissed. */
 export function problemsPanel(store: Store<AppState>, actions: Actions): void {

@@ -1,9 +1,9 @@
 import type { EmbedResult, LayoutInfo } from "layout-embedding";
-import type { Actions } from "../model/actions";
-import { formatGap, formatLength, formatSeconds, meaning } from "../model/describe";
-import type { AppState } from "../model/state";
-import type { Store } from "../model/store";
-import { create, element, setText } from "./dom";
+import type { Actions } from "../model/actions.js";
+import { formatGap, formatLength, formatSeconds, meaning } from "../model/describe.js";
+import type { AppState } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { create, element, setText } from "./dom.js";
 
 /** The figures of the result, or of the search while it runs. */
 export function resultPanel(store: Store<AppState>, actions: Actions): void {

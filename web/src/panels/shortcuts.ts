@@ -1,4 +1,4 @@
-import { element } from "./dom";
+import { element } from "./dom.js";
 
 const typing = "input:not([type=checkbox]):not([type=file]), textarea, select, [contenteditable]";
 

@@ -1,8 +1,8 @@
-import type { Actions } from "../model/actions";
-import { formatGap, formatLength, formatSeconds, statusWords } from "../model/describe";
-import type { AppState } from "../model/state";
-import type { Store } from "../model/store";
-import { element, setText } from "./dom";
+import type { Actions } from "../model/actions.js";
+import { formatGap, formatLength, formatSeconds, statusWords } from "../model/describe.js";
+import type { AppState } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { element, setText } from "./dom.js";
 
 /** Options, the button that solves and cancels, progress. */
 export function solvePanel(store: Store<AppState>, actions: Actions): void {

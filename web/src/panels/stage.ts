@@ -1,11 +1,11 @@
 import type { EmbedResult, LayoutInfo, TargetInfo } from "layout-embedding";
-import type { Actions } from "../model/actions";
-import { formatLength } from "../model/describe";
-import type { AppState, Item } from "../model/state";
-import type { Store } from "../model/store";
-import { onThemeChange } from "../view3d/colors";
-import { LayoutView, TargetView } from "../view3d/views";
-import { element, setText } from "./dom";
+import type { Actions } from "../model/actions.js";
+import { formatLength } from "../model/describe.js";
+import type { AppState, Item } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { onThemeChange } from "../view3d/colors.js";
+import { LayoutView, TargetView } from "../view3d/views.js";
+import { element, setText } from "./dom.js";
 
 const keys = "Arrow keys turn it, plus and minus zoom.";
 

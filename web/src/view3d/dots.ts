@@ -7,7 +7,7 @@ import {
     Points,
     ShaderMaterial,
 } from "three";
-import type { ViewTheme } from "./colors";
+import type { ViewTheme } from "./colors.js";
 
 /** Landmarks beyond this many get dots without numbers: the texture would grow too large. */
 const maximumNumbers = 1024;

@@ -3,7 +3,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { Polylines } from "layout-embedding";
-import type { ViewTheme } from "./colors";
+import type { ViewTheme } from "./colors.js";
 
 /** Widths in CSS pixels. */
 const inkWidth = 2.6;

@@ -1,6 +1,6 @@
 import { Vector3, type PerspectiveCamera } from "three";
 import type { Polylines } from "layout-embedding";
-import type { Item } from "../model/state";
+import type { Item } from "../model/state.js";
 
 /** Pixels around the pointer in which something is found. */
 const reach = 10;

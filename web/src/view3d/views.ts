@@ -1,8 +1,8 @@
 import { BufferGeometry, DoubleSide, FrontSide, Mesh, MeshLambertMaterial } from "three";
 import type { EmbedResult, LayoutInfo, Polylines, TargetInfo } from "layout-embedding";
-import type { Item } from "../model/state";
-import { currentTheme, patchColors } from "./colors";
-import { Dots } from "./dots";
+import type { Item } from "../model/state.js";
+import { currentTheme, patchColors } from "./colors.js";
+import { Dots } from "./dots.js";
 import {
     chainPaths,
     layoutSurface,
@@ -11,10 +11,10 @@ import {
     straightEdges,
     vertexNormals,
     type Surface,
-} from "./geometry";
-import { PathLines } from "./lines";
-import { pick, type Pickable } from "./pick";
-import { Viewer } from "./viewer";
+} from "./geometry.js";
+import { PathLines } from "./lines.js";
+import { pick, type Pickable } from "./pick.js";
+import { Viewer } from "./viewer.js";
 
 /** A viewer with a surface, paths on it and numbered dots: what both views have in common. */
 abstract class MeshView {
