@@ -2,7 +2,7 @@
 // page should not do: errors on the console and requests.
 import { readFile } from "node:fs/promises";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
-import { afterAll, beforeAll, expect, inject } from "vitest";
+import { afterAll, beforeAll, expect, inject, vi } from "vitest";
 
 const executablePath = process.env["CHROMIUM"] ?? "/usr/bin/chromium";
 
@@ -32,6 +32,7 @@ export interface OpenPage {
 
 /** One browser per test file; every page gets a context of its own. */
 export function useBrowser(): (options?: BrowserContextOptions) => Promise<OpenPage> {
+    vi.setConfig({ testTimeout: 2 * patience, hookTimeout: patience });
     let browser: Browser;
     beforeAll(async () => {
         browser = await chromium.launch({ executablePath, args });

@@ -109,7 +109,7 @@ test.for([
     ["layout", "empty.obj", ""],
     ["target", "empty.off", ""],
     ["target", "text.obj", "this is no mesh\n"],
-    ["layout", "nan.off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"],
+    ["target", "nan.off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"],
     ["target", "range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"],
 ] as const)("the_page_refuses_as_the_package_does: %s %s", async ([role, name, text]) => {
     const error = await refusal(role, name, text);

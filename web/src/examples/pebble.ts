@@ -28,7 +28,7 @@ function radius(x: number, y: number, z: number): number {
  */
 export function pebble(): { layout: Polygons; target: Polygons; landmarks: number[] } {
     let ball = cube;
-    for (let level = 0; level < 5; ++level) ball = subdivided(ball);
+    for (let level = 0; level < 6; ++level) ball = subdivided(ball);
     const directions: number[] = [];
     const positions: number[] = [];
     for (let v = 0; v < ball.positions.length; v += 3) {

@@ -50,7 +50,7 @@ export class Actions {
                 return;
             await this.attempt("Setting the landmarks", async () => {
                 const { landmarks: ids } = await this.engine.setLandmarks(landmarks);
-                this.store.update({ landmarks: { ids, source: "from the example" } });
+                this.store.update({ landmarks: { ids, source: "example" } });
             });
             await this.runSolve();
         });

@@ -1,6 +1,6 @@
 import type { EmbedResult, LayoutInfo } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
-import { formatGap, formatLength, formatSeconds, meaning } from "../model/describe.js";
+import { formatGap, formatLength, meaning } from "../model/describe.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { create, element, setText } from "./dom.js";
@@ -23,7 +23,6 @@ export function resultPanel(store: Store<AppState>, actions: Actions): void {
                 Number.isFinite(cost) ? formatGap(result?.gap ?? (cost - bound) / cost) : "–",
             );
             setText("length", result?.refined ? formatLength(surfaceLength(result)) : "–");
-            setText("seconds", result ? formatSeconds(result.seconds) : "–");
             setText("meaning", result ? meaning(result) : "");
         },
     );

@@ -1,5 +1,5 @@
 import type { Actions } from "../model/actions.js";
-import { formatGap, formatLength, formatSeconds, statusWords } from "../model/describe.js";
+import { formatSeconds, statusWords } from "../model/describe.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { element, setText } from "./dom.js";
@@ -66,7 +66,7 @@ function statusSentence({ result }: AppState): string {
     if (!result) return "";
     const words = statusWords[result.status];
     if (!result.refined) return `${words}.`;
-    return `${words}. Cost ${formatLength(result.cost)}, gap ${formatGap(result.gap)}, in ${formatSeconds(result.seconds)}.`;
+    return `${words}. It took ${formatSeconds(result.seconds)}.`;
 }
 
 function waitingSentence({ layout, target, landmarks }: AppState): string {

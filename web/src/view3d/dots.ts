@@ -19,6 +19,7 @@ uniform float size;
 uniform float scale;
 uniform float highlighted;
 uniform float bias;
+uniform float horizon;
 varying float vNumber;
 varying float vHighlighted;
 void main() {
@@ -32,7 +33,7 @@ void main() {
   gl_PointSize = size * scale * (vHighlighted > 0.5 ? 1.35 : 1.0);
   // Dots on the far side are left out as a whole rather than cut by the silhouette.
   vec3 facing = normalize(normalMatrix * normal);
-  if (dot(facing, normalize(-eye.xyz)) < -0.15) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (dot(facing, normalize(-eye.xyz)) < horizon) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const fragmentShader = `
@@ -72,6 +73,7 @@ export class Dots {
             size: { value: 22 },
             scale: { value: 1 },
             bias: { value: 0 },
+            horizon: { value: 0 },
             highlighted: { value: -1 },
             digits: { value: null },
             columns: { value: 1 },
@@ -83,7 +85,11 @@ export class Dots {
     });
     readonly points = new Points(new BufferGeometry(), this.material);
 
-    constructor() {
+    /**
+     * @param horizon cosine between normal and line of sight below which a dot is on the far side
+     */
+    constructor(horizon: number) {
+        this.material.uniforms["horizon"]!.value = horizon;
         this.points.renderOrder = 4;
         this.points.frustumCulled = false;
         this.points.visible = false;

@@ -28,10 +28,11 @@ abstract class MeshView {
     });
     protected readonly mesh = new Mesh(new BufferGeometry(), this.material);
     protected readonly lines = new PathLines();
-    protected readonly dots = new Dots();
+    protected readonly dots: Dots;
     private hoverFrame = 0;
 
-    constructor(host: HTMLElement, label: string) {
+    constructor(host: HTMLElement, label: string, horizon: number) {
+        this.dots = new Dots(horizon);
         this.viewer = new Viewer(host, label);
         this.mesh.visible = false;
         this.viewer.content.add(this.mesh, this.lines.group, this.dots.points);
@@ -70,6 +71,10 @@ abstract class MeshView {
 }
 
 export class TargetView extends MeshView {
+    constructor(host: HTMLElement, label: string) {
+        super(host, label, -0.15);
+    }
+
     private places = new Float32Array();
     private placeNormals = new Float32Array();
     private paths: Polylines | null = null;
@@ -136,6 +141,11 @@ export class TargetView extends MeshView {
 }
 
 export class LayoutView extends MeshView {
+    constructor(host: HTMLElement, label: string) {
+        // At a sharp corner one face is seen long after the mean normal has turned away.
+        super(host, label, -0.6);
+    }
+
     private places = new Float32Array();
     private placeNormals = new Float32Array();
     private paths: Polylines | null = null;
