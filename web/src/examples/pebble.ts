@@ -52,7 +52,7 @@ export function pebble(): { layout: Polygons; target: Polygons; landmarks: numbe
     const landmarks: number[] = [];
     for (let v = 0; v < 8; ++v) {
         const [x, y, z] = cube.positions.slice(3 * v, 3 * v + 3) as [number, number, number];
-        const turn = y > 0 ? 1.9 : 0.1 * v;
+        const turn = y > 0 ? 3.2 : 0.1 * v;
         const [c, s] = [Math.cos(turn), Math.sin(turn)];
         landmarks.push(nearest(c * x + s * z, y * (0.6 + 0.12 * (v % 3)), c * z - s * x));
     }

@@ -39,7 +39,7 @@ export function solvePanel(store: Store<AppState>, actions: Actions): void {
         },
     );
 
-    // One live region for what a person waits for; phases only, never figures that change all the time.
+    // Phases and outcomes are announced, never figures that change all the time.
     store.watch(
         (state) => [
             state.activity?.phase,
@@ -50,7 +50,7 @@ export function solvePanel(store: Store<AppState>, actions: Actions): void {
         ],
         () => {
             const { activity, result } = store.get();
-            if (activity) return;
+            if (activity) return setText("status", "");
             setText("status", result ? statusSentence(store.get()) : waitingSentence(store.get()));
         },
     );
