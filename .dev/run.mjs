@@ -70,7 +70,16 @@ export function runNpm(args, options) {
         : run("npm", args, options);
 }
 
-const generated = new Set(["node_modules", "dist", "build", ".vite", ".git", "bench-results"]);
+/** What builds write between the sources; wasm/LICENSE is a copy of the project's. */
+const generated = new Set([
+    "node_modules",
+    "dist",
+    "build",
+    ".vite",
+    ".git",
+    "bench-results",
+    "LICENSE",
+]);
 
 /** Files below `place` (a file or a folder, relative to the root) without generated ones, sorted. */
 export function filesBelow(place) {

@@ -10,6 +10,9 @@
 #include "search/greedy.hh"
 #include "surface/cut_surface_search.hh"
 #include "surface/distance_field.hh"
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+#include "surface/strand_checker.hh"
+#endif
 #include "surface/strands.hh"
 
 namespace layout_embedding {
@@ -49,12 +52,13 @@ struct Ground {
 struct EmbedJob::Implementation {
     using Clock = std::chrono::steady_clock;
 
-    Implementation(EmbeddingProblem problem_in, EmbedOptions options_in)
-        : problem(std::move(problem_in)), options(options_in)
+    Implementation(EmbeddingProblem problem_in, EmbedOptions options_in, PathGraphMaker maker)
+        : problem(std::move(problem_in)), options(options_in), make_graph(std::move(maker))
     {}
 
     EmbeddingProblem problem;
     EmbedOptions options;
+    PathGraphMaker make_graph;
     EmbedPhase phase = EmbedPhase::prepare;
     std::vector<EmbedEvent> events;
     EmbedResult result;
@@ -153,8 +157,7 @@ struct EmbedJob::Implementation {
     void build_ground()
     {
         ground.reset();
-        graph = std::make_unique<PathGraph>(
-            PathGraph::barycentric(*problem.target, {options.seed, attempt}));
+        graph = std::make_unique<PathGraph>(make_graph(*problem.target, {options.seed, attempt}));
         ground = std::make_unique<Ground>(problem, *graph, field_bytes);
     }
 
@@ -208,8 +211,28 @@ struct EmbedJob::Implementation {
         build_ground();
     }
 
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+    /// Whether the present strands pass the checker that shares nothing with them.
+    bool strands_are_sound()
+    {
+        const auto violations = check_strands(problem, *graph, ground->strands.weak_embedding());
+        if (violations.empty()) {
+            return true;
+        }
+        fail(EmbedStatus::failed,
+             make_error(ErrorCode::internal, "the search went wrong (" + violations[0].code + ": " +
+                                                 violations[0].message + ")"));
+        return false;
+    }
+#endif
+
     void accept_embedding()
     {
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+        if (!strands_are_sound()) {
+            return;
+        }
+#endif
         result.weak = ground->strands.weak_embedding();
         result.insertion_order = ground->strands.insertion_order();
         result.exact_cost = ground->greedy.embedded_cost();
@@ -291,7 +314,14 @@ struct EmbedJob::Implementation {
 };
 
 EmbedJob::EmbedJob(EmbeddingProblem problem, EmbedOptions options)
-    : implementation_(std::make_unique<Implementation>(std::move(problem), options))
+    : EmbedJob(std::move(problem), options,
+               [](const TriangleMesh& target, const PathGraph::Options& graph_options) {
+                   return PathGraph::barycentric(target, graph_options);
+               })
+{}
+EmbedJob::EmbedJob(EmbeddingProblem problem, EmbedOptions options, PathGraphMaker make_graph)
+    : implementation_(
+          std::make_unique<Implementation>(std::move(problem), options, std::move(make_graph)))
 {}
 EmbedJob::~EmbedJob() = default;
 EmbedJob::EmbedJob(EmbedJob&&) noexcept = default;

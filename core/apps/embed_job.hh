@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -135,6 +136,10 @@ struct StepBudget {
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
 };
 
+/// Makes the path graph that a job searches: the barycentric subdivision, with any lengths (see
+/// PathGraph::set_lengths). Called again after a tie, with options.attempt raised.
+using PathGraphMaker = std::function<PathGraph(const TriangleMesh&, const PathGraph::Options&)>;
+
 /// Embeds a layout: prepares the path graph, searches, realises the best embedding found and sends
 /// it through the checker. Stepped from outside, so that a caller can show progress, poll events
 /// and cancel between slices; the same object serves command line, worker and tests.
@@ -143,7 +148,9 @@ struct StepBudget {
 /// their seconds) are identical on every platform, however the job is sliced.
 class EmbedJob {
 public:
+    /// In the Euclidean metric.
     EmbedJob(EmbeddingProblem problem, EmbedOptions options);
+    EmbedJob(EmbeddingProblem problem, EmbedOptions options, PathGraphMaker make_graph);
     ~EmbedJob();
     EmbedJob(EmbedJob&&) noexcept;
     EmbedJob& operator=(EmbedJob&&) noexcept;

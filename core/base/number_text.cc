@@ -288,6 +288,7 @@ double decimal_value(const Decimal& decimal)
     constexpr int kMaxDigits = 800;
     std::string digits;
     std::int64_t power = decimal.power;
+    bool more = false;
     for (const char* p = decimal.first; p != decimal.last; ++p) {
         if (*p == '.') {
             continue;
@@ -296,9 +297,10 @@ double decimal_value(const Decimal& decimal)
             digits += *p;
         } else {
             ++power;
+            more = more || *p != '0';
         }
     }
-    if (decimal.digit_count > kMaxDigits) {
+    if (more) {
         digits += '1';
         --power;
     }

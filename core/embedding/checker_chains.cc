@@ -144,9 +144,12 @@ private:
                                 ", which no edge of the refined mesh joins.");
                 return;
             }
-            if (chain_halfedges_[along] != kNone) {
-                violations_.add("chainsMeet", "Chain ", c, " uses the edge ", v, "-", chain[i + 1],
-                                " of another chain.");
+            const Index known = chain_halfedges_[along];
+            if (known != kNone) {
+                violations_.add(
+                    layout_.edge(known) == layout_.edge(h) ? "chainTouchesItself" : "chainsMeet",
+                    "Chain ", c, " runs along the edge ", v, "-", chain[i + 1],
+                    ", which is taken by the chain of ", name(known), ".");
                 return;
             }
             chain_halfedges_[along] = h;

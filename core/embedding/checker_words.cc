@@ -100,7 +100,7 @@ private:
 // hence |a| <= (|z| + 2 (|x| + |y|)) / t_x.
 //
 // If they commute, x = r^i and y = r^j (j may be 0), and z has to be some r^k with k = i a + j b.
-// For j not 0 some a with 0 <= a < |j| <= |y| will do if any does; for j = 0, |a| <= |z|.
+// For j not 0 some a with 0 <= a < |j| <= |y| will do if any does; for j = 0, |a| t_x <= |z|.
 bool is_product_of_powers(const Word& x, const Word& y, const Word& z)
 {
     const PowerTest is_power_of_y(y);

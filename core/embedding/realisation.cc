@@ -342,8 +342,10 @@ Status MeshCutter::assign_patches()
     for (const auto& [piece, patch] : known_patches_) {
         Index& known = patches[sets_.find(piece)];
         if (known != kUnknownPatch && known != patch) {
-            return failed("the paths do not separate the layout faces " + std::to_string(known) +
-                              " and " + std::to_string(patch),
+            const auto name = [](Index face) {
+                return face == kNone ? "the outside" : "layout face " + std::to_string(face);
+            };
+            return failed("the paths do not separate " + name(known) + " from " + name(patch),
                           "face", refined_.triangle_faces[piece_first_triangle_[piece]]);
         }
         known = patch;

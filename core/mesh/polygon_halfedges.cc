@@ -57,4 +57,38 @@ PolygonHalfedges::PolygonHalfedges(const PolygonMesh& mesh)
     }
 }
 
+Index PolygonHalfedges::unpaired_count() const
+{
+    return static_cast<Index>(std::count(opposites_.begin(), opposites_.end(), kNone));
+}
+
+std::vector<Index> PolygonHalfedges::components() const
+{
+    std::vector<Index> component(ends_.size() - 1, kNone);
+    Index count = 0;
+    std::vector<Index> stack;  // one halfedge per face reached
+    for (Index start = 0; start < this->count(); ++start) {
+        if (component[face(start)] != kNone) {
+            continue;
+        }
+        component[face(start)] = count;
+        stack.push_back(start);
+        while (!stack.empty()) {
+            const Index first = stack.back();
+            stack.pop_back();
+            Index h = first;
+            do {
+                const Index twin = opposite(h);
+                if (twin != kNone && component[face(twin)] == kNone) {
+                    component[face(twin)] = count;
+                    stack.push_back(twin);
+                }
+                h = next(h);
+            } while (h != first);
+        }
+        ++count;
+    }
+    return component;
+}
+
 }  // namespace layout_embedding

@@ -11,8 +11,8 @@ namespace layout_embedding {
 /// The halfedges of a polygon mesh of any quality, paired where that can be done: halfedge h runs
 /// from corner h of `mesh.corners` to the next corner of the same face.
 ///
-/// The corners must be vertices of the mesh; nothing else is assumed. O(#H log #H), whatever the
-/// degrees.
+/// Refers to `mesh`, which must outlive it and stay as it is. The corners must be vertices of the
+/// mesh; nothing else is assumed. O(#H log #H), whatever the degrees.
 class PolygonHalfedges {
 public:
     explicit PolygonHalfedges(const PolygonMesh& mesh);
@@ -35,6 +35,12 @@ public:
     std::array<Index, 2> non_manifold() const { return non_manifold_; }
     /// The first two halfedges of an edge that run in the same direction, kNone if there are none.
     std::array<Index, 2> inconsistent() const { return inconsistent_; }
+
+    /// Number of halfedges without an opposite.
+    Index unpaired_count() const;
+    /// Numbers the components of faces that paired halfedges join, in the order of their first
+    /// faces: per face its component. O(#H).
+    std::vector<Index> components() const;
 
 private:
     const std::vector<Index>& ends_;

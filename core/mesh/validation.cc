@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -303,102 +302,45 @@ private:
 
     Status check_components(const PolygonHalfedges& halfedges) const
     {
-        std::vector<Index> component(mesh_.face_count(), kNone);
-        const Index count = number_components(halfedges, component);
-        const Index boundary = boundary_edges(halfedges);
-        if (target_ && (count > 1 || boundary > 0)) {
-            if (Status status = check_coincidence(count); !status) {
+        const std::vector<Index> components = halfedges.components();
+        const Index count = *std::max_element(components.begin(), components.end()) + 1;
+        if (target_ && (count > 1 || halfedges.unpaired_count() > 0)) {
+            if (Status status = check_coincidence(); !status) {
                 return status;
             }
         }
         if (count > 1) {
-            const auto other = std::find(component.begin(), component.end(), 1U);
-            const Index face = static_cast<Index>(other - component.begin());
+            const auto other = std::find(components.begin(), components.end(), 1U);
+            const Index first = mesh_.face(0)[0];
+            const Index second = mesh_.face(static_cast<Index>(other - components.begin()))[0];
             return fail(ErrorCode::severalComponents,
                         "has " + number(count) + " components: no chain of faces joins vertex " +
-                            number(mesh_.face(0)[0]) + " to vertex " + number(mesh_.face(face)[0]),
-                        {{"components", count},
-                         {"vertex", mesh_.face(0)[0]},
-                         {"otherVertex", mesh_.face(face)[0]}});
+                            number(first) + " to vertex " + number(second),
+                        {{"components", count}, {"vertex", first}, {"otherVertex", second}});
         }
         return {};
     }
 
-    /// Whether welding would make fewer components, or close the surface.
-    Status check_coincidence(Index components) const
+    /// Whether there are gaps that welding would close.
+    Status check_coincidence() const
     {
         const std::vector<Index> classes = weld_classes(mesh_);
-        const auto first = std::mismatch(classes.begin(), classes.end(), identity().begin());
-        if (first.first == classes.end()) {
+        Index first = kNone;
+        Index count = 0;
+        for (Index v = 0; v < classes.size(); ++v) {
+            if (classes[v] != v) {
+                first = std::min(first, v);
+                ++count;
+            }
+        }
+        if (count == 0 || !welding_helps(mesh_, classes)) {
             return {};
         }
-        const PolygonMesh trial = welded(mesh_, classes);
-        const PolygonHalfedges halfedges(trial);
-        std::vector<Index> component(mesh_.face_count(), kNone);
-        if (number_components(halfedges, component) >= components &&
-            boundary_edges(halfedges) > 0) {
-            return {};
-        }
-        const Index vertex = static_cast<Index>(first.first - classes.begin());
         return fail(ErrorCode::coincidentVertices,
-                    "is cut open between vertices " + number(*first.first) + " and " +
-                        number(vertex) + " at the same position (" + number(differences(classes)) +
+                    "is cut open between vertices " + number(classes[first]) + " and " +
+                        number(first) + " at the same position (" + number(count) +
                         " such vertices in all)",
-                    {{"vertex", *first.first}, {"otherVertex", vertex}});
-    }
-
-    std::vector<Index> identity() const
-    {
-        std::vector<Index> ids(mesh_.vertex_count());
-        std::iota(ids.begin(), ids.end(), 0);
-        return ids;
-    }
-
-    static std::size_t differences(const std::vector<Index>& classes)
-    {
-        std::size_t count = 0;
-        for (std::size_t v = 0; v < classes.size(); ++v) {
-            count += classes[v] != v ? 1 : 0;
-        }
-        return count;
-    }
-
-    static Index boundary_edges(const PolygonHalfedges& halfedges)
-    {
-        Index count = 0;
-        for (Index h = 0; h < halfedges.count(); ++h) {
-            count += halfedges.opposite(h) == kNone ? 1 : 0;
-        }
-        return count;
-    }
-
-    /// Numbers the components of faces joined along edges; returns how many there are.
-    static Index number_components(const PolygonHalfedges& halfedges, std::vector<Index>& component)
-    {
-        Index count = 0;
-        std::vector<Index> stack;  // halfedges, one per reached face
-        for (Index start = 0; start < halfedges.count(); ++start) {
-            if (component[halfedges.face(start)] != kNone) {
-                continue;
-            }
-            component[halfedges.face(start)] = count;
-            stack.push_back(start);
-            while (!stack.empty()) {
-                const Index first = stack.back();
-                stack.pop_back();
-                Index h = first;
-                do {
-                    const Index twin = halfedges.opposite(h);
-                    if (twin != kNone && component[halfedges.face(twin)] == kNone) {
-                        component[halfedges.face(twin)] = count;
-                        stack.push_back(twin);
-                    }
-                    h = halfedges.next(h);
-                } while (h != first);
-            }
-            ++count;
-        }
-        return count;
+                    {{"vertex", classes[first]}, {"otherVertex", first}});
     }
 
     const PolygonMesh& mesh_;

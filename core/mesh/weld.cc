@@ -193,4 +193,29 @@ PolygonMesh welded(const PolygonMesh& mesh, const std::vector<Index>& classes)
     return result;
 }
 
+bool welding_helps(const PolygonMesh& mesh, const std::vector<Index>& classes)
+{
+    const auto component_count = [](const PolygonHalfedges& halfedges) {
+        const std::vector<Index> components = halfedges.components();
+        return *std::max_element(components.begin(), components.end()) + 1;
+    };
+    const PolygonHalfedges before(mesh);
+    // Faces that would be no more than an edge do not count afterwards.
+    PolygonMesh joined;
+    joined.positions = mesh.positions;
+    const PolygonMesh trial = welded(mesh, classes);
+    for (Index f = 0; f < trial.face_count(); ++f) {
+        const auto face = trial.face(f);
+        if (face.size() != 3 || (face[0] != face[1] && face[1] != face[2] && face[2] != face[0])) {
+            joined.add_face(face);
+        }
+    }
+    if (joined.face_count() == 0) {
+        return false;
+    }
+    const PolygonHalfedges after(joined);
+    return component_count(after) < component_count(before) ||
+           (before.unpaired_count() > 0 && after.unpaired_count() == 0);
+}
+
 }  // namespace layout_embedding

@@ -20,4 +20,8 @@ std::vector<Index> weld_classes(const PolygonMesh& mesh);
 /// longer used.
 PolygonMesh welded(const PolygonMesh& mesh, const std::vector<Index>& classes);
 
+/// Whether `mesh`, welded to `classes`, falls into fewer components than before, or is the first
+/// to be closed: whether its gaps are no more than vertices that are not shared.
+bool welding_helps(const PolygonMesh& mesh, const std::vector<Index>& classes);
+
 }  // namespace layout_embedding

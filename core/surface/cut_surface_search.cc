@@ -11,13 +11,16 @@ constexpr std::uint32_t kFlags = 4;
 }  // namespace
 
 CutSurfaceSearch::CutSurfaceSearch(const Strands& strands, DistanceFields& fields)
-    : strands_(strands), fields_(fields)
+    : strands_(strands), fields_(fields), met_numbers_(strands.layout().edge_count(), 0)
 {}
 
-void CutSurfaceSearch::begin(Index layout_edge)
+void CutSurfaceSearch::begin(Index layout_edge, Length limit)
 {
     const Layout& layout = strands_.layout();
     ++search_count_;
+    layout_edge_ = layout_edge;
+    limit_ = limit;
+    met_.clear();
     start_ = strands_.landmark_node(layout.tail(2 * layout_edge));
     goal_ = strands_.landmark_node(layout.head(2 * layout_edge));
     goal_sector_ = strands_.sector(2 * layout_edge + 1);
@@ -35,6 +38,7 @@ void CutSurfaceSearch::begin(Index layout_edge)
     }
     if (++number_ >= UINT32_MAX / kFlags) {
         std::fill(labels_.begin(), labels_.end(), Label{kInfiniteLength, kNone, 0});
+        std::fill(met_numbers_.begin(), met_numbers_.end(), 0);
         number_ = 1;
     }
 
@@ -58,10 +62,13 @@ CutSurfaceSearch::Outcome CutSurfaceSearch::run(std::uint64_t max_expansions)
         const QueueItem item = queue_.front();
         Label& label = labels_[item.state];
         if ((label.mark & kClosed) == 0) {
+            lower_bound_ = std::max(lower_bound_, item.estimate);
+            if (item.estimate >= limit_) {
+                return Outcome::exceeded;
+            }
             if (max_expansions-- == 0) {
                 return Outcome::running;
             }
-            lower_bound_ = std::max(lower_bound_, item.estimate);
             label.mark |= kClosed;
             ++expansion_count_;
             std::pop_heap(queue_.begin(), queue_.end());
@@ -91,6 +98,14 @@ void CutSurfaceSearch::expand(Index state)
             relax(state, node, d, 0, distance);
         }
         return;
+    }
+    bordering_.clear();
+    strands_.append_bordering(state, bordering_);
+    for (const Index edge : bordering_) {
+        if (met_numbers_[edge] != number_) {
+            met_numbers_[edge] = number_;
+            met_.push_back(edge);
+        }
     }
     const Index region = strands_.region_of_state(state);
     for (Index d = graph.first_dart(node); d < end; ++d) {
@@ -139,6 +154,18 @@ void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slo
     label = {reached, dart, number_ * kFlags};
     queue_.push_back({reached + field_->bound(along.head), state});
     std::push_heap(queue_.begin(), queue_.end());
+}
+
+std::vector<Index> CutSurfaceSearch::blockers() const
+{
+    // The strands at both ends belong to it although no expanded region may touch them: a cheaper
+    // walk may be wrong in the cyclic order only.
+    std::vector<Index> blockers = met_;
+    strands_.append_sector_neighbours(2 * layout_edge_, blockers);
+    strands_.append_sector_neighbours(2 * layout_edge_ + 1, blockers);
+    std::sort(blockers.begin(), blockers.end());
+    blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
+    return blockers;
 }
 
 void CutSurfaceSearch::collect_walk()

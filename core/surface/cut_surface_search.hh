@@ -24,6 +24,8 @@ public:
         found,
         /// No walk exists: other strands are in the way.
         blocked,
+        /// Every walk is at least as long as the limit: see lower_bound().
+        exceeded,
         /// Two shortest walks of equal length: draw other perturbations (PathGraph::Options).
         tied,
     };
@@ -32,8 +34,8 @@ public:
     CutSurfaceSearch(const Strands& strands, DistanceFields& fields);
 
     /// Starts to search for an edge that is not embedded. The strands must not change until the
-    /// search is over.
-    void begin(Index layout_edge);
+    /// search is over. Walks of length `limit` or more do not matter.
+    void begin(Index layout_edge, Length limit = kInfiniteLength);
 
     /// Continues for at most `max_expansions` expansions.
     Outcome run(std::uint64_t max_expansions = UINT64_MAX);
@@ -43,6 +45,9 @@ public:
     Length cost() const { return goal_distance_; }
     /// Every walk for the edge is at least this long; grows while the search runs.
     Length lower_bound() const { return lower_bound_; }
+    /// The explanation of the outcome: embedded edges whose strands alone keep every walk from being
+    /// shorter than lower_bound() (design, Sec. 2). Sorted.
+    std::vector<Index> blockers() const;
     /// Searches begun by this object.
     std::uint64_t search_count() const { return search_count_; }
     /// States expanded by all of them.
@@ -79,6 +84,11 @@ private:
     Index goal_state_ = kNone;  // the state before the goal, kNone for the start
     bool goal_tied_ = false;
     Length lower_bound_ = 0;
+    Length limit_ = kInfiniteLength;
+    Index layout_edge_ = kNone;
+    std::vector<Index> met_;                  // embedded edges that border expanded regions
+    std::vector<std::uint32_t> met_numbers_;  // per layout edge: the search that met it last
+    std::vector<Index> bordering_;            // scratch
     std::uint32_t number_ = 0;
     std::uint64_t search_count_ = 0;
     std::uint64_t expansion_count_ = 0;

@@ -72,20 +72,52 @@ Index Strands::bordering_halfedge(Index state) const
         return kNone;
     }
     const Index region = region_of_state(state);
-    Index place = kNone;
-    Index rank = 0;
-    for (const End& end : record->ends) {
-        rank = end.place == place ? rank + 1 : 0;
-        place = end.place;
-        // The slot before an end lies to its right, looking outwards.
-        if (record->slot_regions[record->slot_offsets[place] + rank] == region) {
+    for (Index k = 0; k < record->ends.size(); ++k) {
+        const End& end = record->ends[k];
+        // The slot to the right of the end, looking outwards: see append_bordering().
+        if (record->slot_regions[k + end.place] == region) {
             const auto& darts = strands_[end.layout_edge];
-            const bool leaves =
-                end.visit < darts.size() && darts[end.visit] == graph_->first_dart(node) + place;
+            const bool leaves = end.visit < darts.size() &&
+                                darts[end.visit] == graph_->first_dart(node) + end.place;
             return leaves ? 2 * end.layout_edge + 1 : 2 * end.layout_edge;
         }
     }
     return kNone;
+}
+
+void Strands::append_bordering(Index state, std::vector<Index>& layout_edges) const
+{
+    const Record* record = record_at(node_of_state(state));
+    if (record == nullptr) {
+        return;
+    }
+    const Index region = region_of_state(state);
+    // Slots and ends alternate but for one slot more per dart: end k at the i-th place has the slots
+    // k + i to its right and k + i + 1 to its left.
+    for (Index k = 0; k < record->ends.size(); ++k) {
+        const End& end = record->ends[k];
+        const Index right = k + end.place;
+        if (record->slot_regions[right] == region || record->slot_regions[right + 1] == region) {
+            layout_edges.push_back(end.layout_edge);
+        }
+    }
+}
+
+void Strands::append_sector_neighbours(Index layout_halfedge,
+                                       std::vector<Index>& layout_edges) const
+{
+    const auto around = layout_->outgoing(layout_->tail(layout_halfedge));
+    const Index rank = layout_->rank(layout_halfedge);
+    const auto count = static_cast<Index>(around.size());
+    for (const Index direction : {Index{1}, count - 1}) {
+        for (Index step = 1; step < count; ++step) {
+            const Index edge = Layout::edge(around[(rank + step * direction) % count]);
+            if (is_embedded(edge)) {
+                layout_edges.push_back(edge);
+                break;
+            }
+        }
+    }
 }
 
 Index Strands::sector(Index layout_halfedge) const

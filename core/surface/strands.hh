@@ -76,6 +76,12 @@ public:
     /// left; kNone at untouched nodes.
     Index bordering_halfedge(Index state) const;
 
+    /// Appends the layout edges whose strands border a state's region, some perhaps twice.
+    void append_bordering(Index state, std::vector<Index>& layout_edges) const;
+    /// Appends the embedded edges next to layout halfedge h in the cyclic order of tail(h): they
+    /// bound its sector. None if nothing is embedded there.
+    void append_sector_neighbours(Index layout_halfedge, std::vector<Index>& layout_edges) const;
+
     /// The sector at landmark tail(h) in which halfedge h of the layout has to leave, given the
     /// edges embedded there.
     Index sector(Index layout_halfedge) const;

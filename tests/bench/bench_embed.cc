@@ -77,6 +77,9 @@ const char* name(EmbedPhase phase)
 Result<PolygonMesh> read_file(const char* path)
 {
     std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        return make_error(ErrorCode::invalidOption, std::string(path) + " cannot be read");
+    }
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     return read_mesh(bytes, format_of_file_name(path), path);
 }

@@ -1,5 +1,6 @@
 #include "embedding/face_cutting.hh"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

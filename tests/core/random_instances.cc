@@ -169,6 +169,15 @@ std::vector<Index> random_tree_first_order(const Layout& layout, Random& random)
     return tree;
 }
 
+EmbeddingProblem problem_of(const PolygonMesh& layout, const PolygonMesh& target,
+                            std::vector<Index> landmarks)
+{
+    return make_problem(
+               std::make_shared<const Layout>(Layout::from_polygons(layout, "the layout").value()),
+               std::make_shared<const TriangleMesh>(target), std::move(landmarks))
+        .value();
+}
+
 std::vector<Instance> random_instances(std::uint64_t seed, int count)
 {
     Random random(seed);

@@ -7,6 +7,7 @@
 
 #include "base/random.hh"
 #include "layout/embedding_problem.hh"
+#include "mesh/polygon_mesh.hh"
 #include "surface/cut_surface_search.hh"
 #include "surface/distance_field.hh"
 #include "surface/path_graph.hh"
@@ -19,6 +20,10 @@ struct Instance {
     std::string name;
     EmbeddingProblem problem;
 };
+
+/// A problem that is known to be one.
+EmbeddingProblem problem_of(const PolygonMesh& layout, const PolygonMesh& target,
+                            std::vector<Index> landmarks);
 
 /// `count` instances on small closed targets of genus 0 (a handful to a few hundred faces, so that
 /// paths crowd together) with layouts of 4 to 12 vertices and landmarks drawn at random: most of

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "embedding/refined_mesh.hh"
+
+namespace layout_embedding {
+
+/// `refined` as Wavefront OBJ: patches as groups `patch_<layout face>`, faces outside all patches
+/// as group `outside`, layout edges as `l` lines in the order of the layout's edges. Vertices and
+/// triangles keep their order; read_obj() gives back the same doubles.
+std::string write_refined_obj(const RefinedMesh& refined);
+
+}  // namespace layout_embedding

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/types.hh"
+#include "search/partial_embedding.hh"
+#include "surface/cut_surface_search.hh"
+
+namespace layout_embedding {
+
+/// Answers "what is the shortest path of this edge here?" for states of a search, and remembers why
+/// (design, Sec. 2): every finished search leaves its explanation, the strands that kept the path
+/// from being shorter. In any state that contains those strands its cost is a lower bound, and the
+/// answer if its walk still traces. Few questions need a new search.
+class PathOracle {
+public:
+    enum class Outcome {
+        /// The budget ran out; ask again in the same state to go on.
+        running,
+        /// `walk` is the shortest.
+        found,
+        /// No path exists; `bound` is kInfiniteLength.
+        blocked,
+        /// Every path is at least `bound` long, which is at least the limit asked for.
+        exceeded,
+        /// Two shortest walks of equal length.
+        tied,
+    };
+    struct Answer {
+        Outcome outcome = Outcome::running;
+        Index walk = kNone;
+        Length bound = 0;
+    };
+
+    /// Keeps references. Without `remember`, every question is a search.
+    PathOracle(PartialEmbedding& embedding, CutSurfaceSearch& search, bool remember = true);
+
+    /// The shortest path of an edge that is not embedded, in the present state. Paths of length
+    /// `limit` or more do not matter. `budget`: node expansions that may still be spent, reduced by
+    /// those that were.
+    Answer find(Index layout_edge, Length limit, std::uint64_t& budget);
+
+    /// The best lower bound on the paths of an edge in the present state that is known without a
+    /// search.
+    Length known_bound(Index layout_edge) const;
+
+    /// Questions answered without a search.
+    std::uint64_t remembered_count() const { return remembered_count_; }
+
+private:
+    struct Explanation {
+        Length bound;
+        Index walk;                   // kNone where only the bound is known
+        std::vector<Index> blockers;  // walks
+    };
+    bool applies(const Explanation& explanation) const;
+    Answer recall(Index layout_edge, Length limit) const;
+
+    PartialEmbedding& embedding_;
+    CutSurfaceSearch& search_;
+    bool remember_;
+    Index searching_ = kNone;
+    std::vector<std::vector<Explanation>> explanations_;  // per layout edge
+    std::uint64_t remembered_count_ = 0;
+};
+
+}  // namespace layout_embedding

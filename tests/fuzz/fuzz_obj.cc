@@ -1,0 +1,24 @@
+// Whatever bytes come in, the OBJ reader ends with a mesh or an error, and a mesh survives writing
+// and reading.
+#include <string_view>
+
+#include "fuzz.hh"
+#include "mesh/mesh_writer.hh"
+#include "mesh/obj_reader.hh"
+#include "mesh_properties.hh"
+
+using namespace layout_embedding;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    const Result<PolygonMesh> mesh = read_obj(bytes, "the file");
+    if (!mesh.ok()) {
+        FUZZ_CHECK(!mesh.error().message.empty());
+        return 0;
+    }
+    const Result<PolygonMesh> again = read_obj(write_obj(*mesh), "the copy");
+    FUZZ_CHECK(again.ok() && identical(*mesh, *again));
+    check_mesh_properties(*mesh);
+    return 0;
+}
