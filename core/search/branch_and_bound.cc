@@ -30,6 +30,9 @@ Length BranchAndBound::lower_bound() const
     if (next_root_ < edge_count_) {
         return 0;
     }
+    if (nodes_.empty() && incumbent_.empty()) {
+        return root_bound_;
+    }
     Length bound = std::min(pruned_bound_, incumbent_cost_);
     if (!open_bounds_.empty()) {
         bound = std::min(bound, open_bounds_.begin()->first);
@@ -205,6 +208,11 @@ BranchAndBound::Outcome BranchAndBound::evaluate_child(std::uint64_t& budget)
 {
     const Index edge = branches_[next_branch_];
     if (!in_child_) {
+        // Remembered answers cost no expansions, but the work of tracing all candidates.
+        if (budget < edge_count_) {
+            return Outcome::running;
+        }
+        budget -= edge_count_;
         begin_child(edge);
         if (!in_child_) {
             return Outcome::finished;

@@ -55,7 +55,9 @@ public:
     BranchAndBound(PartialEmbedding& embedding, PathOracle& oracle,
                    const BranchAndBoundOptions& options);
 
-    /// Continues for at most `budget` node expansions.
+    /// Continues for at most `budget` units of work: node expansions, and one per layout edge for
+    /// every state that is evaluated. At least as many as there are layout edges, or nothing is
+    /// done.
     Outcome run(std::uint64_t budget = UINT64_MAX);
 
     /// Takes a complete embedding found elsewhere, given as walks in an order in which they can be
