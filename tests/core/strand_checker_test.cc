@@ -33,6 +33,8 @@ std::set<std::string> codes(const Instance& instance, const WeakEmbedding& weak)
 
 using Codes = std::set<std::string>;
 
+constexpr int kTrialsPerInstance = 10;
+
 /// Passes over the edges of the path graph: by the smaller dart, from its right to its left, which
 /// path and which of its darts.
 std::map<Index, std::vector<std::pair<Index, Index>>> passes_of(const Instance& instance,
@@ -126,11 +128,12 @@ TEST(StrandChecker, two_paths_in_exchanged_lanes_cross)
     int at_landmarks = 0;
     for (const Instance& instance : all_instances()) {
         SCOPED_TRACE(instance.name);
+        int tried = 0;
         for (const auto& [dart, row] : passes_of(instance, instance.weak)) {
             for (std::size_t lane = 1; lane < row.size(); ++lane) {
                 const auto [p, i] = row[lane - 1];
                 const auto [q, j] = row[lane];
-                if (p == q) {
+                if (p == q || ++tried > kTrialsPerInstance) {
                     continue;
                 }
                 WeakEmbedding broken = instance.weak;
@@ -156,7 +159,11 @@ TEST(StrandChecker, a_lane_taken_twice_or_beyond_the_edge_is_refused)
     for (const Instance& instance : all_instances()) {
         SCOPED_TRACE(instance.name);
         int shared = 0;
+        int tried = 0;
         for (const auto& [dart, row] : passes_of(instance, instance.weak)) {
+            if (++tried > kTrialsPerInstance) {
+                break;
+            }
             WeakEmbedding broken = instance.weak;
             const auto [p, i] = row[0];
             broken.paths[p].lanes[i] = static_cast<Index>(row.size());
@@ -259,6 +266,14 @@ TEST(StrandChecker, the_mirrored_order_is_refused_at_landmarks_of_degree_three)
                 corners.insert(corners.begin(), layout.tail(h));
             }
             mirrored.add_face(corners);
+        }
+        // Of two strands around an inner point any order is right.
+        bool has_order = false;
+        for (Index v = 0; v < layout.vertex_count(); ++v) {
+            has_order = has_order || layout.outgoing(v).size() > 2;
+        }
+        if (!has_order) {
+            continue;
         }
         const Instance other = moved_to(instance, mirrored);
         EXPECT_EQ(codes(other, other.weak), Codes{"strandOrder"});
