@@ -93,7 +93,8 @@ private:
         s.face_halfedges.assign(offsets_.begin(), offsets_.end() - 1);
         std::vector<Index> seen_in(s.vertex_count, kNone);
         for (Index f = 0; f < s.polygon_count; ++f) {
-            if (offsets_[f + 1] - offsets_[f] < 3) {
+            const Index size = offsets_[f + 1] - offsets_[f];
+            if (size < 3) {
                 refuse(" has fewer than three corners in face ", f, ".");
             }
             for (Index h = offsets_[f]; h < offsets_[f + 1]; ++h) {
@@ -103,7 +104,11 @@ private:
                 if (v >= s.vertex_count) {
                     refuse(" has a corner in face ", f, " that names vertex ", v, " of only ",
                            s.vertex_count, ".");
-                } else if (seen_in[v] == f) {
+                } else if (v == corners_[s.nexts[h]]) {
+                    refuse(" has vertex ", v, " twice in a row in face ", f, ".");
+                } else if (size == 3 && seen_in[v] == f) {
+                    // Larger faces may: an edge that hangs into a layout's face is met from both
+                    // sides.
                     refuse(" has vertex ", v, " twice in face ", f, ".");
                 } else {
                     seen_in[v] = f;

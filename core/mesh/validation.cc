@@ -44,6 +44,9 @@ public:
         if (Status status = check_faces(); !status) {
             return status;
         }
+        if (Status status = check_finite(); !status) {
+            return status;
+        }
         if (target_) {
             if (Status status = check_positions(); !status) {
                 return status;
@@ -156,10 +159,8 @@ private:
         return {};
     }
 
-    Status check_positions() const
+    Status check_finite() const
     {
-        double largest = 0;
-        Index where = 0;
         for (Index v = 0; v < mesh_.vertex_count(); ++v) {
             for (int i = 0; i < 3; ++i) {
                 const double x = mesh_.positions[v][i];
@@ -169,10 +170,20 @@ private:
                                     (std::isnan(x) ? "not a number" : "infinite"),
                                 {{"vertex", v}});
                 }
-                if (std::abs(x) > largest) {
-                    largest = std::abs(x);
-                    where = v;
-                }
+            }
+        }
+        return {};
+    }
+
+    Status check_positions() const
+    {
+        double largest = 0;
+        Index where = 0;
+        for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+            const double x = mesh_.positions[v].cwiseAbs().maxCoeff();
+            if (x > largest) {
+                largest = x;
+                where = v;
             }
         }
         if (largest > kLargestCoordinate) {

@@ -11,7 +11,7 @@ namespace layout_embedding {
 enum class SurfaceKind {
     /// Triangles with usable positions.
     target,
-    /// Polygons read for their connectivity; positions are not looked at.
+    /// Polygons read for their connectivity; positions only have to be finite.
     layout,
 };
 
@@ -26,7 +26,8 @@ inline constexpr Index kMaxFaces = kNone / 24;
 /// - noFaces, tooLarge (more than kMaxFaces), indexOutOfRange (of a corner, or of a face's offset);
 /// - layoutLoop (two consecutive corners of a layout face are one vertex), degenerateFace (fewer
 ///   than three corners; any repeated corner in a target), notTriangles (target);
-/// - for targets: nonFinitePosition; coordinateTooLarge (a coordinate beyond 1e60, or a bounding
+/// - nonFinitePosition;
+/// - for targets: coordinateTooLarge (a coordinate beyond 1e60, or a bounding
 ///   box with a diagonal below 1e-60: areas could not be compared in double precision);
 ///   degenerateFace (three corners on one line);
 /// - unusedVertex;

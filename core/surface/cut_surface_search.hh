@@ -45,8 +45,8 @@ public:
     Length cost() const { return goal_distance_; }
     /// Every walk for the edge is at least this long; grows while the search runs.
     Length lower_bound() const { return lower_bound_; }
-    /// The explanation of the outcome: embedded edges whose strands alone keep every walk from being
-    /// shorter than lower_bound() (design, Sec. 2). Sorted.
+    /// The explanation of the outcome: embedded edges whose strands alone keep every walk from
+    /// being shorter than lower_bound() (design, Sec. 2). Sorted.
     std::vector<Index> blockers() const;
     /// Searches begun by this object.
     std::uint64_t search_count() const { return search_count_; }

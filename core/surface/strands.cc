@@ -92,8 +92,8 @@ void Strands::append_bordering(Index state, std::vector<Index>& layout_edges) co
         return;
     }
     const Index region = region_of_state(state);
-    // Slots and ends alternate but for one slot more per dart: end k at the i-th place has the slots
-    // k + i to its right and k + i + 1 to its left.
+    // Slots and ends alternate but for one slot more per dart: end k at the i-th place has the
+    // slots k + i to its right and k + i + 1 to its left.
     for (Index k = 0; k < record->ends.size(); ++k) {
         const End& end = record->ends[k];
         const Index right = k + end.place;

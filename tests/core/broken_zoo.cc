@@ -152,6 +152,8 @@ std::vector<BrokenMesh> broken_meshes()
         "vertex 3");
     add("infinite", with_position(octahedron(), 2, -kInfinity), kTarget, nonFinitePosition,
         "vertex 2");
+    add("layout that is not a number", with_position(cube(), 6, kNan), kLayout, nonFinitePosition,
+        "vertex 6");
     add("one huge coordinate", with_position(octahedron(), 5, 1e200), kTarget, coordinateTooLarge,
         "vertex 5");
     add("huge", scaled(octahedron(), 1e150), kTarget, coordinateTooLarge, "vertex 0");

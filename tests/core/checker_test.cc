@@ -967,12 +967,14 @@ TEST(Checker, a_single_twisted_weak_path_is_the_one_named)
         << describe(report);
 }
 
-/// An annulus of `columns` by `rows` quads, each cut along the diagonal that goes on with the
-/// columns, and the layout of four spokes and two rings on it. The spokes are straight or wind
-/// `winding` times the diagonals' way, which needs columns * winding rows.
-ClaimedEmbedding spokes_on_annulus(Index columns, Index rows, bool spiral)
+/// An annulus of `size` by `size` quads, each cut along the diagonal, and the layout of four spokes
+/// and two rings on it, the first spoke starting at column `shift`. The spokes are straight, or
+/// wind around once along the diagonals.
+ClaimedEmbedding spokes_on_annulus(Index size, Index shift, bool spiral)
 {
     ClaimedEmbedding e;
+    const Index columns = size;
+    const Index rows = size;
     const PolygonMesh grid = grid_polygons(columns, rows, false);
     e.target.positions = grid.positions;
     for (Index f = 0; f < grid.face_count(); ++f) {
@@ -985,22 +987,22 @@ ClaimedEmbedding spokes_on_annulus(Index columns, Index rows, bool spiral)
     e.layout = grid_polygons(4, 1, false);
     const Index quarter = columns / 4;
     for (Index i = 0; i < 4; ++i) {
-        e.landmarks.push_back(i * quarter);
+        e.landmarks.push_back((i * quarter + shift) % columns);
     }
     for (Index i = 0; i < 4; ++i) {
-        e.landmarks.push_back(i * quarter + rows * columns);
+        e.landmarks.push_back((i * quarter + shift) % columns + rows * columns);
     }
     for (Index i = 0; i < 4; ++i) {
         std::vector<Index> spoke;
         for (Index j = 0; j <= rows; ++j) {
-            spoke.push_back(j * columns + (i * quarter + (spiral ? j : 0)) % columns);
+            spoke.push_back(j * columns + (i * quarter + shift + (spiral ? j : 0)) % columns);
         }
         e.layout_edges.push_back({i, 4 + i});
         e.refined.chains.push_back(spoke);
         for (const Index ring : {0U, 1U}) {
             std::vector<Index> arc;
             for (Index k = 0; k <= quarter; ++k) {
-                arc.push_back(ring * rows * columns + (i * quarter + k) % columns);
+                arc.push_back(ring * rows * columns + (i * quarter + shift + k) % columns);
             }
             e.layout_edges.push_back({4 * ring + i, 4 * ring + (i + 1) % 4});
             e.refined.chains.push_back(arc);
@@ -1013,7 +1015,7 @@ ClaimedEmbedding spokes_on_annulus(Index columns, Index rows, bool spiral)
         const Index column = f / 2 % columns;
         const Index row = f / 2 / columns;
         // The upper triangle of a quad is left of the diagonal.
-        const Index offset = spiral ? column + columns * rows - row : column;
+        const Index offset = column + 2 * columns - shift - (spiral ? row : 0);
         const Index place = offset % columns;
         const bool before = spiral && f % 2 == 0 && place % quarter == 0;
         e.refined.triangle_patches.push_back(((place / quarter) + (before ? 3 : 0)) % 4);
@@ -1024,18 +1026,50 @@ ClaimedEmbedding spokes_on_annulus(Index columns, Index rows, bool spiral)
 
 TEST(Checker, spiral_chains_are_refused_for_straight_weak_paths_and_the_other_way_round)
 {
-    const ClaimedEmbedding straight = spokes_on_annulus(12, 12, false);
-    const ClaimedEmbedding spiral = spokes_on_annulus(12, 12, true);
-    EXPECT_TRUE(straight.check().valid()) << describe(straight.check());
-    EXPECT_TRUE(spiral.check().valid()) << describe(spiral.check());
-    ClaimedEmbedding e = straight;
-    e.weak_paths = spiral.weak_paths;
-    EXPECT_EQ(e.codes(), Codes{"homotopyClass"}) << describe(e.check());
-    e = spiral;
-    e.weak_paths = straight.weak_paths;
-    EXPECT_EQ(e.codes(), Codes{"homotopyClass"}) << describe(e.check());
-    e.weak_paths.clear();
-    EXPECT_TRUE(e.check().valid()) << describe(e.check());
+    for (const Index shift : {0U, 1U, 2U}) {
+        const ClaimedEmbedding straight = spokes_on_annulus(12, shift, false);
+        const ClaimedEmbedding spiral = spokes_on_annulus(12, shift, true);
+        EXPECT_TRUE(straight.check().valid()) << describe(straight.check());
+        EXPECT_TRUE(spiral.check().valid()) << describe(spiral.check());
+        // All four spokes: landmarks on a boundary leave no freedom to turn.
+        ClaimedEmbedding e = straight;
+        e.weak_paths = spiral.weak_paths;
+        EXPECT_EQ(e.codes(), Codes{"homotopyClass"}) << describe(e.check());
+        EXPECT_EQ(e.check().violations.size(), 4U) << describe(e.check());
+        e = spiral;
+        e.weak_paths = straight.weak_paths;
+        EXPECT_EQ(e.codes(), Codes{"homotopyClass"}) << describe(e.check());
+        EXPECT_EQ(e.check().violations.size(), 4U) << describe(e.check());
+        e.weak_paths.clear();
+        EXPECT_TRUE(e.check().valid()) << describe(e.check());
+    }
+}
+
+TEST(Checker, refuses_two_neighbours_exchanged_in_a_cyclic_order)
+{
+    // Four ways from pole to pole; in the layout, two neighbouring ones change places. The chains
+    // are those of the one as well as of the other.
+    const auto layout = [](const std::array<Index, 4>& order) {
+        PolygonMesh mesh;
+        mesh.positions = octahedron_polygons().positions;
+        for (int i = 0; i < 4; ++i) {
+            mesh.add_face(std::array<Index, 4>{4, order[i], 5, order[(i + 1) % 4]});
+        }
+        return mesh;
+    };
+    const ClaimedEmbedding valid = embed_in_itself(layout({0, 1, 2, 3}), 2, true);
+    EXPECT_TRUE(valid.check().valid()) << describe(valid.check());
+    for (Index i = 0; i < 4; ++i) {
+        std::array<Index, 4> order{0, 1, 2, 3};
+        std::swap(order[i], order[(i + 1) % 4]);
+        ClaimedEmbedding e = valid;
+        e.layout = layout(order);
+        std::size_t poles = 0;
+        for (const Violation& violation : e.check().violations) {
+            poles += violation.code == "cyclicOrder" ? 1 : 0;
+        }
+        EXPECT_EQ(poles, 2U) << describe(e.check());
+    }
 }
 
 TEST(Checker, lists_at_most_ten_violations_of_a_kind)

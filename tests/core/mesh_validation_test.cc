@@ -50,11 +50,11 @@ TEST(CheckSurface, a_broken_mesh_stays_broken_in_any_order_of_vertices_and_faces
     }
 }
 
-TEST(CheckSurface, positions_of_a_layout_do_not_matter)
+TEST(CheckSurface, positions_of_a_layout_do_not_matter_as_long_as_they_are_numbers)
 {
     PolygonMesh layout = zoo::cube();
     for (Vec3& p : layout.positions) {
-        p.setConstant(std::numeric_limits<double>::quiet_NaN());
+        p.setConstant(1e300);
     }
     EXPECT_TRUE(check_surface(layout, SurfaceKind::layout, "the layout").ok());
 }

@@ -1,0 +1,130 @@
+// Opens the built page in the system's Chromium, as a person would, and keeps a record of what a
+// page should not do: errors on the console and requests.
+import { readFile } from "node:fs/promises";
+import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { afterAll, beforeAll, expect, inject, vi } from "vitest";
+
+const executablePath = process.env["CHROMIUM"] ?? "/usr/bin/chromium";
+
+/** Without a graphics card, and without the browser's own requests. */
+const args = [
+    "--headless",
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+];
+
+/** A solve on a small machine under load may take its time. */
+export const patience = 90_000;
+
+export interface OpenPage {
+    page: Page;
+    /** Errors and warnings on the console, and uncaught errors. */
+    complaints: string[];
+    /** Addresses asked for, in order. */
+    requests: string[];
+    close: () => Promise<void>;
+}
+
+/** One browser per test file; every page gets a context of its own. */
+export function useBrowser(): (options?: BrowserContextOptions) => Promise<OpenPage> {
+    vi.setConfig({ testTimeout: 2 * patience, hookTimeout: patience });
+    let browser: Browser;
+    beforeAll(async () => {
+        browser = await chromium.launch({ executablePath, args });
+    });
+    afterAll(() => browser.close());
+    return async (options = {}) => {
+        const context = await browser.newContext({
+            viewport: { width: 1280, height: 800 },
+            acceptDownloads: true,
+            ...options,
+        });
+        context.setDefaultTimeout(patience);
+        const page = await context.newPage();
+        const complaints: string[] = [];
+        const requests: string[] = [];
+        page.on("console", (message) => {
+            // Chromium reports how slow reading pixels back is; that is this test's doing.
+            if (["error", "warning"].includes(message.type()) && !/ReadPixels/.test(message.text()))
+                complaints.push(message.text());
+        });
+        page.on("pageerror", (error) => complaints.push(error.message));
+        context.on("request", (request) => requests.push(request.url()));
+        await page.goto(inject("pageUrl"));
+        return { page, complaints, requests, close: () => context.close() };
+    };
+}
+
+/** Waits until the status says so; fails at once if a problem is shown instead. */
+export async function untilStatus(page: Page, pattern: RegExp): Promise<string> {
+    await page.waitForFunction(
+        (source) =>
+            new RegExp(source).test(document.getElementById("status")?.textContent ?? "") ||
+            document.querySelector(".problem") !== null,
+        pattern.source,
+    );
+    const status = (await page.textContent("#status")) ?? "";
+    const problems = await page.locator(".problem").allTextContents();
+    expect(problems, `problems instead of the status ${String(pattern)}`).toEqual([]);
+    expect(status).toMatch(pattern);
+    return status;
+}
+
+/** Any end of a solve with an embedding. */
+export const solved = /^(Solved|Stopped at)/;
+export const ready = /^Ready to solve/;
+
+/** A file as setInputFiles() takes it. */
+export function textFile(name: string, text: string) {
+    return { name, mimeType: "text/plain", buffer: Buffer.from(text) };
+}
+
+/** Drops files on the page, as from the desktop. */
+export async function drop(page: Page, files: { name: string; text: string }[]): Promise<void> {
+    const transfer = await page.evaluateHandle((list) => {
+        const data = new DataTransfer();
+        for (const { name, text } of list) data.items.add(new File([text], name));
+        return data;
+    }, files);
+    for (const type of ["dragenter", "dragover", "drop"])
+        await page.dispatchEvent("body", type, { dataTransfer: transfer });
+    await transfer.dispose();
+}
+
+/** What a button of the page downloads. */
+export async function downloaded(page: Page, trigger: () => Promise<void>): Promise<Buffer> {
+    const [download] = await Promise.all([page.waitForEvent("download"), trigger()]);
+    return readFile(await download.path());
+}
+
+/** How many pixels of an element's picture have each colour, in steps of 32 per channel. */
+export async function colorsOf(page: Page, selector: string): Promise<Map<number, number>> {
+    const picture = await page.locator(selector).screenshot();
+    const counts = await page.evaluate(async (source) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${source}`;
+        await image.decode();
+        const canvas = document.createElement("canvas");
+        canvas.width = image.width;
+        canvas.height = image.height;
+        const context = canvas.getContext("2d");
+        if (!context) return [];
+        context.drawImage(image, 0, 0);
+        const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+        const found: Record<number, number> = {};
+        for (let i = 0; i < data.length; i += 4) {
+            const key =
+                ((data[i] ?? 0) >> 5) * 64 +
+                ((data[i + 1] ?? 0) >> 5) * 8 +
+                ((data[i + 2] ?? 0) >> 5);
+            found[key] = (found[key] ?? 0) + 1;
+        }
+        return Object.entries(found);
+    }, picture.toString("base64"));
+    return new Map(counts.map(([key, count]) => [Number(key), count]));
+}

@@ -1,0 +1,137 @@
+import { expect, test } from "vitest";
+import { colorsOf, solved, untilStatus, useBrowser } from "./browser.js";
+
+const open = useBrowser();
+
+test("every_control_is_reached_by_tab_and_shows_its_focus", async () => {
+    const { page, close } = await open();
+    await untilStatus(page, solved);
+    await page.locator("details").evaluateAll((all) => {
+        for (const details of all) (details as HTMLDetailsElement).open = true;
+    });
+    const wanted = await page
+        .locator("button:enabled, input:enabled, select, summary, canvas")
+        .evaluateAll((all) =>
+            all
+                .filter((one) => one.checkVisibility() && !one.closest("dialog"))
+                .map((one, i) => {
+                    one.setAttribute("data-stop", String(i));
+                    return i;
+                }),
+        );
+    expect(wanted.length).toBeGreaterThan(20);
+    const reached: number[] = [];
+    for (let press = 0; press < wanted.length + 10; ++press) {
+        await page.keyboard.press("Tab");
+        const [stop, visible] = await page.evaluate(() => {
+            const focused = document.activeElement;
+            if (!focused || focused === document.body) return [null, true] as const;
+            // A file input shows its focus on the label around it.
+            const shown = focused.closest("label.file") ?? focused;
+            const { outlineStyle, outlineWidth } = getComputedStyle(shown);
+            return [
+                focused.getAttribute("data-stop"),
+                outlineStyle !== "none" && parseFloat(outlineWidth) >= 2,
+            ] as const;
+        });
+        expect(visible, `focus of stop ${String(stop)}`).toBe(true);
+        if (stop !== null) reached.push(Number(stop));
+    }
+    expect(wanted.filter((stop) => !reached.includes(stop))).toEqual([]);
+    // In the order of the page.
+    const first = reached.slice(0, wanted.length);
+    expect(first).toEqual([...first].sort((a, b) => a - b));
+    await close();
+});
+
+test("an_example_is_chosen_solved_and_taken_home_with_the_keyboard_alone", async () => {
+    const { page, complaints, close } = await open();
+    await untilStatus(page, solved);
+    const name = await page.textContent("#layout-name");
+    for (let press = 0; press < 40; ++press) {
+        await page.keyboard.press("Tab");
+        if (await page.evaluate(() => document.activeElement?.id === "example")) break;
+    }
+    await page.keyboard.press("ArrowDown");
+    await page.waitForFunction(
+        (before) => document.getElementById("layout-name")?.textContent !== before,
+        name,
+    );
+    await untilStatus(page, solved);
+    // Away from the list, where letters would choose an entry.
+    await page.keyboard.press("Tab");
+    const cost = await page.textContent("#cost");
+    await page.keyboard.press("s");
+    await page.waitForFunction(() => document.getElementById("cost")?.textContent === "–");
+    await page.waitForFunction(() => document.getElementById("solve")?.textContent === "Solve");
+    await untilStatus(page, solved);
+    expect(await page.textContent("#cost")).toBe(cost);
+
+    const names: string[] = [];
+    page.on("download", (download) => names.push(download.suggestedFilename()));
+    await page.keyboard.press("d");
+    await expect
+        .poll(() => [...names].sort())
+        .toEqual(["embedding.json", "refined.obj", "refined_map.json"]);
+    expect(complaints).toEqual([]);
+    await close();
+});
+
+test("shortcuts_open_files_toggle_the_layout_and_show_the_keys", async () => {
+    const { page, close } = await open();
+    await untilStatus(page, solved);
+    const [chooser] = await Promise.all([
+        page.waitForEvent("filechooser"),
+        page.keyboard.press("o"),
+    ]);
+    expect(chooser.isMultiple()).toBe(true);
+    await page.keyboard.press("l");
+    expect(await page.isVisible("#layout-view")).toBe(false);
+    expect(await page.isChecked("#show-layout")).toBe(false);
+    await page.keyboard.press("l");
+    expect(await page.isVisible("#layout-view")).toBe(true);
+    await page.keyboard.press("?");
+    expect(await page.isVisible("#help")).toBe(true);
+    // Under the dialog the page rests.
+    await page.keyboard.press("l");
+    await page.keyboard.press("Escape");
+    expect(await page.isVisible("#help")).toBe(false);
+    expect(await page.isVisible("#layout-view")).toBe(true);
+    await close();
+});
+
+test("shortcuts_rest_while_something_is_typed", async () => {
+    const { page, close } = await open();
+    await untilStatus(page, solved);
+    await page.click("#options summary");
+    const cost = await page.textContent("#cost");
+    await page.focus("#seed");
+    for (const key of ["s", "l", "o", "?"]) await page.keyboard.press(key);
+    expect(await page.textContent("#solve")).toBe("Solve");
+    expect(await page.textContent("#cost")).toBe(cost);
+    expect(await page.isVisible("#layout-view")).toBe(true);
+    expect(await page.isVisible("#help")).toBe(false);
+    await close();
+});
+
+test("arrow_keys_turn_a_view_and_r_brings_it_back", async () => {
+    const { page, close } = await open();
+    await untilStatus(page, solved);
+    await page.focus("#target-view canvas");
+    const picture = async () => {
+        await page.evaluate(async () => {
+            for (let frame = 0; frame < 2; ++frame)
+                await new Promise((resolve) => requestAnimationFrame(resolve));
+        });
+        return JSON.stringify([...(await colorsOf(page, "#target-view canvas"))].sort());
+    };
+    const before = await picture();
+    for (const key of ["ArrowRight", "ArrowUp", "+"]) {
+        const last = await picture();
+        await page.keyboard.press(key);
+        expect(await picture(), key).not.toBe(last);
+    }
+    await page.keyboard.press("r");
+    expect(await picture()).toBe(before);
+    await close();
+});

@@ -1,0 +1,92 @@
+// The native build makes byte for byte what the package makes, in WebAssembly.
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { Session } from "layout-embedding";
+import { describe, expect, test } from "vitest";
+import { inFolder, runProgram } from "./command.js";
+import { hasShared, sphereCubes } from "./data.js";
+import { cube, displacedLandmarks, obj, octahedron, sphere, torus } from "./meshes.js";
+
+const program = path.resolve(import.meta.dirname, "../../build/release/tests/core/native_embed");
+const isBuilt = existsSync(program);
+if (!isBuilt) {
+    console.warn(`skipping comparisons with the native build: no ${program} (run npm test)`);
+}
+
+interface Files {
+    layout: string;
+    target: string;
+    landmarks: string;
+}
+
+async function expectAgreement({ layout, target, landmarks }: Files, seed: number): Promise<void> {
+    const native = await runProgram(program, [layout, target, landmarks, String(seed), "1000"]);
+    expect(native.stderr).toBe("");
+    expect(native.exitCode).toBe(0);
+    const lineEnd = native.stdout.indexOf("\n");
+
+    const session = await Session.create();
+    const file = (name: string) => ({ bytes: readFileSync(name), name });
+    await session.loadLayout(file(layout));
+    await session.loadTarget(file(target));
+    await session.setLandmarks(file(landmarks));
+    const result = await session.solve({ seed });
+    const files = await session.exportFiles();
+    await session.dispose();
+    expect({
+        exactCost: String(result.exactCost),
+        exactLowerBound: String(result.exactLowerBound),
+        insertionOrder: Array.from(result.insertionOrder),
+        searches: result.counters.searches,
+        expansions: result.counters.expansions,
+    }).toEqual(JSON.parse(native.stdout.slice(0, lineEnd)));
+    const refined = new TextDecoder().decode(files["refined.obj"]);
+    // Not toBe(): a difference would print megabytes.
+    expect(refined === native.stdout.slice(lineEnd + 1)).toBe(true);
+}
+
+describe.skipIf(!isBuilt)("the native build agrees with the package", () => {
+    const small = [
+        {
+            name: "octahedron",
+            layout: octahedron,
+            target: sphere(3),
+            landmarks: displacedLandmarks,
+        },
+        {
+            name: "cube",
+            layout: cube,
+            target: sphere(3),
+            landmarks: [3, 50, 99, 120, 160, 201, 77, 12],
+        },
+        { name: "torus", layout: torus(4, 3), target: torus(16, 12), landmarks: onTorus() },
+    ];
+    test.each(small)("on_the_$name", ({ layout, target, landmarks }) =>
+        inFolder(async (folder) => {
+            const write = (name: string, text: string) => {
+                const file = path.join(folder, name);
+                writeFileSync(file, text);
+                return file;
+            };
+            const files = {
+                layout: write("layout.obj", obj(layout)),
+                target: write("target.obj", obj(target)),
+                landmarks: write("landmarks.txt", landmarks.join("\n")),
+            };
+            await expectAgreement(files, 1);
+            await expectAgreement(files, 7);
+        }),
+    );
+
+    const named = sphereCubes.filter(({ name }) =>
+        /^sphere5_seed[147]$|^sphere6_seed5$/.test(name),
+    );
+    test.skipIf(!hasShared).each(named)("on_$name", ({ layout, target, landmarks }) =>
+        expectAgreement({ layout, target, landmarks: landmarks! }, 1),
+    );
+});
+
+/** The corners of torus(4, 3) on torus(16, 12). */
+function onTorus(): number[] {
+    return Array.from({ length: 12 }, (_, i) => Math.floor(i / 3) * 4 * 12 + (i % 3) * 4);
+}

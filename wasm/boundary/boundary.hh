@@ -1,0 +1,175 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <new>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/embed_job.hh"
+#include "base/error.hh"
+#include "embedding/checker.hh"
+#include "embedding/refined_mesh.hh"
+#include "layout/layout.hh"
+#include "mesh/polygon_mesh.hh"
+#include "mesh/triangle_mesh.hh"
+
+/// The C boundary of the library in WebAssembly, called by src/core.ts alone.
+///
+/// - Objects are handles: numbers from 1 on, never used twice, each made by a function that says so
+///   and freed by boundary_destroy(). 0 is no object.
+/// - Functions that can fail return 0 (or kFailed where 0 means something); the error then stands
+///   in the error functions below until the next failure. No exception leaves a function.
+/// - Data come in through memory from boundary_allocate(), and go out through views: the last
+///   viewed array lies at boundary_view_data() and is valid until the next call of any function.
+/// - Text is UTF-8. 64-bit integers are i64, BigInt in JavaScript.
+#define BOUNDARY_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
+
+namespace layout_embedding::boundary {
+
+/// What functions return that otherwise return a number from 0 on.
+inline constexpr std::int32_t kFailed = -1;
+
+/// A handle whose object has another type or is gone.
+struct InvalidHandle : std::logic_error {
+    using std::logic_error::logic_error;
+};
+
+/// A polygon mesh as it was read, with what repairing it did.
+struct MeshObject {
+    PolygonMesh mesh;
+    std::vector<std::string> notes;
+    /// Per vertex of the input: its id here, kNone where removed; empty without a repair.
+    std::vector<Index> vertex_map;
+};
+
+struct LayoutObject {
+    std::shared_ptr<const Layout> layout;
+};
+
+struct TargetObject {
+    std::shared_ptr<const TriangleMesh> target;
+};
+
+struct LandmarksObject {
+    std::vector<Index> landmarks;
+    std::vector<std::string> notes;
+};
+
+struct JobObject {
+    EmbedJob job;
+};
+
+/// A claimed embedding on its way to the checker, and the verdict.
+struct CheckObject {
+    RefinedMesh refined;
+    std::vector<std::array<Index, 2>> layout_edges;
+    std::vector<std::vector<WeakPoint>> weak_paths;
+    CheckReport report;
+};
+
+/// All living objects of one type by handle.
+template <typename T>
+class HandleTable {
+public:
+    std::uint32_t add(std::unique_ptr<T> object);
+    T& get(std::uint32_t handle);
+    bool destroy(std::uint32_t handle) { return objects_.erase(handle) > 0; }
+
+private:
+    std::map<std::uint32_t, std::unique_ptr<T>> objects_;
+};
+
+/// The handle of the next object, whatever its type.
+std::uint32_t next_handle();
+
+template <typename T>
+HandleTable<T>& handles()
+{
+    static HandleTable<T> table;
+    return table;
+}
+
+template <typename T>
+std::uint32_t HandleTable<T>::add(std::unique_ptr<T> object)
+{
+    const std::uint32_t handle = next_handle();
+    objects_.emplace(handle, std::move(object));
+    return handle;
+}
+
+template <typename T>
+T& HandleTable<T>::get(std::uint32_t handle)
+{
+    const auto found = objects_.find(handle);
+    if (found == objects_.end()) {
+        throw InvalidHandle("handle " + std::to_string(handle) + " is not an object of this kind");
+    }
+    return *found->second;
+}
+
+/// Makes `error` the last one.
+void set_error(Error error);
+
+/// Shows `count` elements at `data`, which must stay where they are until the next call.
+void set_view(const void* data, std::size_t count);
+template <typename T>
+void set_view(const std::vector<T>& values)
+{
+    set_view(values.data(), values.size());
+}
+void set_view(std::string_view text);
+
+/// Keeps `values` for the caller to look at.
+template <typename T>
+void set_owned_view(const std::vector<T>& values);
+void set_owned_view(std::string text);
+std::vector<std::byte>& view_storage();
+
+template <typename T>
+void set_owned_view(const std::vector<T>& values)
+{
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<std::byte>& storage = view_storage();
+    storage.resize(values.size() * sizeof(T));
+    if (!values.empty()) {
+        std::memcpy(storage.data(), values.data(), storage.size());
+    }
+    set_view(storage.data(), values.size());
+}
+
+/// Runs `body` and turns whatever it throws into the last error and `failed`.
+template <typename Body, typename Value>
+Value guarded(Value failed, Body&& body)
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        set_error(
+            make_error(ErrorCode::memoryLimit, "the memory of the WebAssembly module is full"));
+    } catch (const std::length_error&) {
+        set_error(make_error(ErrorCode::memoryLimit,
+                             "an array larger than WebAssembly can address was needed"));
+    } catch (const std::exception& exception) {
+        set_error(make_error(ErrorCode::internal, exception.what()));
+    } catch (...) {
+        set_error(make_error(ErrorCode::internal, "an unknown exception was thrown"));
+    }
+    return failed;
+}
+
+/// The bytes of an argument.
+inline std::string_view text_argument(const char* data, std::size_t size)
+{
+    return {data, size};
+}
+
+}  // namespace layout_embedding::boundary

@@ -1,0 +1,136 @@
+// layout-embedding embed
+import { LayoutError } from "../errors.js";
+import type { EmbeddingDocument } from "../files.js";
+import { Session } from "../session.js";
+import type { EmbedResult } from "../types.js";
+import type { EmbedCommand } from "./arguments.js";
+import { readInput } from "./input_files.js";
+import { exitCodes, type Outcome } from "./outcome.js";
+import { OutputFolder } from "./output_folder.js";
+import { ProgressLine } from "./progress.js";
+
+export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
+    // The first interruption ends the search, a second one the program.
+    const interrupt = new AbortController();
+    const stop = () => {
+        interrupt.abort();
+    };
+    process.once("SIGINT", stop);
+    process.once("SIGTERM", stop);
+    const output = command.output === null ? null : await OutputFolder.prepare(command.output);
+    const session = await Session.create();
+    try {
+        await load(session, command);
+        const result = await solve(session, command, interrupt.signal);
+        return await finish(session, command, output, result, interrupt.signal.aborted);
+    } finally {
+        await session.dispose();
+        await output?.leave();
+        process.off("SIGINT", stop);
+        process.off("SIGTERM", stop);
+    }
+}
+
+async function load(session: Session, command: EmbedCommand): Promise<void> {
+    const layout = await readInput("the layout", command.layout);
+    const target = await readInput("the target", command.target);
+    const landmarks =
+        command.landmarks === null ? null : await readInput("the landmark file", command.landmarks);
+    const options = { repair: command.repair };
+    const notes = [
+        ...(await session.loadLayout(layout, options)).notes,
+        ...(await session.loadTarget(target, options)).notes,
+        ...(landmarks === null
+            ? await session.landmarksByProximity()
+            : await session.setLandmarks(landmarks)
+        ).notes,
+    ];
+    if (!command.quiet && !command.json) {
+        for (const note of notes) {
+            process.stderr.write(`note: ${note}\n`);
+        }
+    }
+}
+
+async function solve(
+    session: Session,
+    command: EmbedCommand,
+    signal: AbortSignal,
+): Promise<EmbedResult> {
+    const line = new ProgressLine(process.stderr.isTTY && !command.quiet);
+    try {
+        return await session.solve({
+            ...command.solve,
+            signal,
+            onProgress: (progress) => {
+                line.show(progress);
+            },
+        });
+    } finally {
+        line.clear();
+    }
+}
+
+async function finish(
+    session: Session,
+    command: EmbedCommand,
+    output: OutputFolder | null,
+    result: EmbedResult,
+    interrupted: boolean,
+): Promise<Outcome> {
+    const document = session.embeddingDocument();
+    if (result.refined === null) {
+        return {
+            exitCode: interrupted ? exitCodes.interrupted : exitCodeWithout(result, command),
+            text: command.quiet ? "" : failureText(result),
+            document,
+        };
+    }
+    const files = output === null ? [] : await output.write({ ...(await session.exportFiles()) });
+    return {
+        exitCode: interrupted ? exitCodes.interrupted : exitCodes.success,
+        text: command.quiet ? "" : summaryText(document, files),
+        document: { ...document, files },
+    };
+}
+
+function exitCodeWithout(result: EmbedResult, command: EmbedCommand): number {
+    switch (result.status) {
+        case "infeasible":
+            return exitCodes.infeasible;
+        case "memoryLimit":
+            // A limit of the user's is a limit; without one, memory really ran out.
+            if (command.solve.memoryLimit === undefined) {
+                throw new LayoutError("memoryLimit", result.message ?? "memory ran out.");
+            }
+            return exitCodes.noneFound;
+        default:
+            return exitCodes.noneFound;
+    }
+}
+
+function failureText(result: EmbedResult): string {
+    const reason = result.message ?? "";
+    return result.status === "infeasible"
+        ? "no embedding exists"
+        : `no embedding found (${result.status}) ${reason}`.trimEnd();
+}
+
+function summaryText(document: EmbeddingDocument, files: string[]): string {
+    const number = (value: number | null) => (value === null ? "unknown" : value.toPrecision(8));
+    const gap = document.gap === null ? "unknown" : `${(100 * document.gap).toPrecision(3)} %`;
+    const scope =
+        document.boundScope === "embeddings" ? "of all embeddings" : "of all insertion sequences";
+    const length = document.edges.reduce((sum, edge) => sum + edge.length, 0);
+    const lines = [
+        `${String(document.edges.length)} edges embedded (${document.status}) in ` +
+            `${document.seconds.toFixed(2)} s`,
+        `cost ${number(document.cost)}, at least ${number(document.lowerBound)} ${scope}, ` +
+            `gap ${gap} (all in the path-graph metric)`,
+        `length of the chains on the surface ${number(length)}`,
+    ];
+    if (files.length > 0) {
+        lines.push(`written: ${files.join(", ")}`);
+    }
+    return lines.join("\n");
+}

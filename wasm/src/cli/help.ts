@@ -1,0 +1,27 @@
+export const helpText = `Embeds a coarse layout into a triangle mesh: every layout edge becomes a path on the surface.
+
+Usage
+  layout-embedding embed LAYOUT TARGET [options]   embed LAYOUT into TARGET (OBJ or OFF)
+  layout-embedding check DIR LAYOUT TARGET         check what embed wrote to DIR
+
+Options of both
+  --landmarks FILE     one 0-based target vertex id per line, in the order of the layout's
+                       vertices; embed's default is by proximity, check's what embed wrote
+  --repair             mend coincident and unused vertices, degenerate and duplicate faces
+  --json               print one JSON object, also for errors
+
+Options of embed
+  --output DIR         write refined.obj, refined_map.json and embedding.json there
+  --algorithm NAME     greedy (default)
+  --gap X              stop at this gap, (cost - lower bound) / cost (default 0.01)
+  --time-limit S       stop the search after S seconds
+  --work-limit N       stop the search after N node expansions; reproducible
+  --memory-limit MB    refuse what would need more memory
+  --seed N             seed of the tie-breaking perturbation (default 1)
+  --quiet              print nothing but errors
+
+  --help, --version
+
+Exit codes: 0 a valid embedding was written, or the check accepts; 1 none found within the limits;
+2 bad input or usage; 3 proved infeasible; 4 the check refuses; 5 internal error or out of memory;
+130 interrupted, with the best result written.`;

@@ -1,0 +1,35 @@
+// One line on the terminal that follows the work; nothing where stderr goes elsewhere.
+import type { EmbedProgress } from "../types.js";
+
+const names = {
+    prepare: "preparing",
+    search: "searching",
+    realise: "cutting the mesh",
+    check: "checking",
+    done: "done",
+} as const satisfies Record<EmbedProgress["phase"], string>;
+
+export class ProgressLine {
+    private shown = 0;
+
+    constructor(private readonly enabled: boolean) {}
+
+    show(progress: EmbedProgress): void {
+        const now = performance.now();
+        if (!this.enabled || now - this.shown < 50) {
+            return;
+        }
+        this.shown = now;
+        const share = `${String(Math.round(100 * progress.progress))} %`;
+        const cost = Number.isFinite(progress.cost) ? `, cost ${progress.cost.toPrecision(6)}` : "";
+        process.stderr.write(
+            `\r\x1b[K${names[progress.phase]} ${share}${cost}, ${progress.seconds.toFixed(1)} s`,
+        );
+    }
+
+    clear(): void {
+        if (this.enabled) {
+            process.stderr.write("\r\x1b[K");
+        }
+    }
+}

@@ -1,0 +1,274 @@
+// The same API in a worker ("layout-embedding/worker"), so that a page stays responsive: in
+// browsers a module worker, in Node a worker thread.
+import type * as WorkerThreads from "node:worker_threads";
+import { javaScriptError, LayoutError } from "./errors.js";
+import type { Reply, Request, SessionMethod } from "./protocol.js";
+import { embedIn } from "./sugar.js";
+import type {
+    EmbeddingClaim,
+    EmbeddingSession,
+    EmbedOptions,
+    EmbedProblem,
+    EmbedProgress,
+    EmbedResult,
+    ExportedFiles,
+    LandmarkInput,
+    LandmarkOptions,
+    LandmarksInfo,
+    LayoutInfo,
+    LoadOptions,
+    MeshInput,
+    SolveOptions,
+    TargetInfo,
+    Violation,
+} from "./types.js";
+
+export { LayoutError } from "./errors.js";
+export type * from "./types.js";
+
+export interface WorkerOptions {
+    /** Where core.wasm comes from: an address, its bytes, or compiled. Default: beside this file. */
+    wasm?: string | URL | ArrayBuffer | Uint8Array | WebAssembly.Module;
+}
+
+interface Pending {
+    resolve: (value: unknown) => void;
+    reject: (reason: LayoutError) => void;
+    onProgress: ((progress: EmbedProgress) => void) | undefined;
+}
+
+/** What both kinds of worker can do. */
+interface Port {
+    post(request: Request): void;
+    terminate(): void;
+}
+
+interface PortEvents {
+    onReply: (reply: Reply) => void;
+    onFailure: (cause: string) => void;
+}
+
+/** Starts a worker and loads the module in it. */
+export function createWorkerClient(options: WorkerOptions = {}): Promise<EmbeddingWorker> {
+    return EmbeddingWorker.create(options);
+}
+
+export class EmbeddingWorker {
+    private readonly pending = new Map<number, Pending>();
+    private port: Port | null = null;
+    private lastId = 0;
+
+    private constructor() {}
+
+    /** Starts a worker and loads the module in it; rejects with a LayoutError if either fails. */
+    static async create(options: WorkerOptions = {}): Promise<EmbeddingWorker> {
+        const worker = new EmbeddingWorker();
+        worker.port = await openPort({
+            onReply: (reply) => {
+                worker.receive(reply);
+            },
+            onFailure: (cause) => {
+                worker.end(javaScriptError("workerFailed", `the worker failed (${cause})`));
+            },
+        });
+        const { wasm } = options;
+        const source = wasm instanceof URL ? wasm.href : (wasm ?? null);
+        try {
+            await worker.send((id) => ({ kind: "init", id, wasm: source }));
+        } catch (reason) {
+            worker.terminate();
+            throw reason;
+        }
+        return worker;
+    }
+
+    /** A session in the worker; several can work at a time, taking turns. */
+    async createSession(): Promise<EmbeddingSession> {
+        let session = 0;
+        await this.send((id) => {
+            session = id;
+            return { kind: "create", id };
+        });
+        return new WorkerSession((method, args, options) =>
+            this.call(session, method, args, options),
+        );
+    }
+
+    /** Embeds a layout into a target, as embed() of the package does, but in the worker. */
+    async embed(problem: EmbedProblem, options: EmbedOptions = {}): Promise<EmbedResult> {
+        const session = await this.createSession();
+        try {
+            return await embedIn(session, problem, options);
+        } finally {
+            // A terminated worker has no session left to dispose of.
+            await session.dispose().catch(() => undefined);
+        }
+    }
+
+    /** Ends the worker at once; whatever is pending is rejected with workerTerminated. */
+    terminate(): void {
+        this.end(javaScriptError("workerTerminated", "the worker was terminated"));
+    }
+
+    private async call(
+        session: number,
+        method: SessionMethod,
+        args: unknown[],
+        { signal, onProgress }: Pick<SolveOptions, "signal" | "onProgress"> = {},
+    ): Promise<unknown> {
+        let abort = () => {};
+        const reply = this.send((id) => {
+            abort = () => this.port?.post({ kind: "abort", id });
+            return { kind: "call", id, session, method, args };
+        }, onProgress);
+        if (signal?.aborted === true) {
+            abort();
+        }
+        signal?.addEventListener("abort", abort);
+        try {
+            return await reply;
+        } finally {
+            signal?.removeEventListener("abort", abort);
+        }
+    }
+
+    private send(
+        request: (id: number) => Request,
+        onProgress?: (progress: EmbedProgress) => void,
+    ): Promise<unknown> {
+        const { port } = this;
+        if (port === null) {
+            return Promise.reject(
+                javaScriptError("workerTerminated", "the worker has been terminated"),
+            );
+        }
+        const id = ++this.lastId;
+        return new Promise((resolve, reject) => {
+            this.pending.set(id, { resolve, reject, onProgress });
+            try {
+                port.post(request(id));
+            } catch (reason) {
+                this.pending.delete(id);
+                const cause = reason instanceof Error ? reason.message : String(reason);
+                reject(javaScriptError("invalidInput", `an argument cannot be sent (${cause})`));
+            }
+        });
+    }
+
+    private receive(reply: Reply): void {
+        const pending = this.pending.get(reply.id);
+        if (pending === undefined) {
+            return;
+        }
+        if (reply.kind === "progress") {
+            pending.onProgress?.(reply.progress);
+            return;
+        }
+        this.pending.delete(reply.id);
+        if (reply.kind === "value") {
+            pending.resolve(reply.value);
+        } else {
+            const { code, message, details } = reply.error;
+            pending.reject(new LayoutError(code, message, details));
+        }
+    }
+
+    private end(reason: LayoutError): void {
+        this.port?.terminate();
+        this.port = null;
+        const rejected = [...this.pending.values()];
+        this.pending.clear();
+        for (const pending of rejected) {
+            pending.reject(reason);
+        }
+    }
+}
+
+/** Calls a method of one session in the worker. */
+type SessionCall = (
+    method: SessionMethod,
+    args: unknown[],
+    options?: Pick<SolveOptions, "signal" | "onProgress">,
+) => Promise<unknown>;
+
+/** A session in the worker, by messages. */
+class WorkerSession implements EmbeddingSession {
+    constructor(private readonly call: SessionCall) {}
+
+    loadLayout(input: MeshInput, options: LoadOptions = {}): Promise<LayoutInfo> {
+        return this.call("loadLayout", [input, options]) as Promise<LayoutInfo>;
+    }
+
+    loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
+        return this.call("loadTarget", [input, options]) as Promise<TargetInfo>;
+    }
+
+    setLandmarks(input: LandmarkInput, options: LandmarkOptions = {}): Promise<LandmarksInfo> {
+        return this.call("setLandmarks", [input, options]) as Promise<LandmarksInfo>;
+    }
+
+    landmarksByProximity(): Promise<LandmarksInfo> {
+        return this.call("landmarksByProximity", []) as Promise<LandmarksInfo>;
+    }
+
+    solve(options: SolveOptions = {}): Promise<EmbedResult> {
+        const { signal, onProgress, ...plain } = options;
+        // Functions and signals cannot be sent.
+        const local = { ...(signal && { signal }), ...(onProgress && { onProgress }) };
+        return this.call("solve", [plain], local) as Promise<EmbedResult>;
+    }
+
+    exportFiles(): Promise<ExportedFiles> {
+        return this.call("exportFiles", []) as Promise<ExportedFiles>;
+    }
+
+    check(claim: EmbeddingClaim): Promise<Violation[]> {
+        return this.call("check", [claim]) as Promise<Violation[]>;
+    }
+
+    dispose(): Promise<void> {
+        return this.call("dispose", []) as Promise<void>;
+    }
+}
+
+async function openPort(events: PortEvents): Promise<Port> {
+    if (typeof Worker !== "undefined") {
+        // Bundlers look for exactly this expression.
+        const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+        worker.onmessage = (event: MessageEvent<Reply>) => {
+            events.onReply(event.data);
+        };
+        worker.onmessageerror = () => {
+            events.onFailure("a message could not be read");
+        };
+        worker.onerror = (event) => {
+            event.preventDefault();
+            events.onFailure(event.message || "its script could not be loaded");
+        };
+        return {
+            post: (request) => {
+                worker.postMessage(request);
+            },
+            terminate: () => {
+                worker.terminate();
+            },
+        };
+    }
+    // Not literals, so that bundlers for the browser don't look for them.
+    const module = "node:worker_threads";
+    const file = "./worker.js";
+    const threads = (await import(/* @vite-ignore */ module)) as typeof WorkerThreads;
+    const thread = new threads.Worker(new URL(file, import.meta.url));
+    thread.on("message", events.onReply);
+    thread.on("error", (error: Error) => {
+        events.onFailure(error.message);
+    });
+    return {
+        post: (request) => {
+            thread.postMessage(request);
+        },
+        terminate: () => {
+            void thread.terminate();
+        },
+    };
+}

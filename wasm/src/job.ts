@@ -1,0 +1,345 @@
+// Runs one job of the core in slices that let other events be handled in between, and reads what
+// it made.
+import type { Core, Handle } from "./core.js";
+import { javaScriptError, LayoutError } from "./errors.js";
+import type {
+    Algorithm,
+    BoundScope,
+    EmbeddedEdge,
+    EmbedEvent,
+    EmbedEventKind,
+    EmbedPhase,
+    EmbedResult,
+    EmbedStatus,
+    Polylines,
+    RefinedMesh,
+    SolveOptions,
+    WeakPoint,
+} from "./types.js";
+
+// In the order of the core's enumerations (core/apps/embed_job.hh).
+const algorithms: Algorithm[] = ["greedy"];
+const statuses: (EmbedStatus | "running" | "failed")[] = [
+    "running",
+    "optimal",
+    "gapReached",
+    "feasible",
+    "timeLimit",
+    "workLimit",
+    "memoryLimit",
+    "cancelled",
+    "infeasible",
+    "noneFound",
+    "failed",
+];
+const scopes: BoundScope[] = ["embeddings", "insertionSequences"];
+const phases: EmbedPhase[] = ["prepare", "search", "realise", "check", "done"];
+const eventKinds: EmbedEventKind[] = ["phase", "incumbent", "bound", "progress"];
+
+/** The names of the algorithms there are. */
+export const algorithmNames: readonly string[] = algorithms;
+
+const none = 0xffff_ffff;
+const maximalWork = 0xffff_ffff_ffff_ffffn;
+const defaultSlice = 15;
+
+/** What the core wants to know, checked and with all defaults filled in. */
+export interface JobOptions {
+    algorithm: Algorithm;
+    gap: number;
+    timeLimit: number;
+    workLimit: number;
+    memoryLimit: number;
+    seed: number;
+}
+
+/** Checks options; throws invalidOption. */
+export function jobOptions(options: SolveOptions): JobOptions {
+    const checked: JobOptions = {
+        algorithm: options.algorithm ?? "greedy",
+        gap: options.gap ?? 0.01,
+        timeLimit: options.timeLimit ?? Infinity,
+        workLimit: options.workLimit ?? Infinity,
+        memoryLimit: options.memoryLimit ?? Infinity,
+        seed: options.seed ?? 1,
+    };
+    const refuse = (name: string, value: unknown, wanted: string) =>
+        new LayoutError(
+            "invalidOption",
+            `the option ${name} is ${String(value)}; it has to be ${wanted}.`,
+        );
+    if (!algorithms.includes(checked.algorithm)) {
+        throw refuse("algorithm", checked.algorithm, algorithms.join(" or "));
+    }
+    if (!(checked.gap >= 0 && checked.gap <= 1)) {
+        throw refuse("gap", checked.gap, "a number from 0 to 1");
+    }
+    for (const name of ["timeLimit", "workLimit", "memoryLimit"] as const) {
+        if (!(checked[name] >= 0)) {
+            throw refuse(name, checked[name], "a number that is not negative");
+        }
+    }
+    if (!Number.isSafeInteger(checked.seed) || checked.seed < 0) {
+        throw refuse("seed", checked.seed, "an integer from 0 to 2^53 - 1");
+    }
+    return checked;
+}
+
+/** Makes a job; throws where layout, target and landmarks don't fit together. */
+export function createJob(
+    core: Core,
+    layout: Handle,
+    target: Handle,
+    landmarks: Uint32Array,
+    options: JobOptions,
+): Handle {
+    return core.withCopies((copy) =>
+        core.call(
+            "boundary_job_create",
+            layout,
+            target,
+            copy(landmarks),
+            landmarks.length,
+            algorithms.indexOf(options.algorithm),
+            options.gap,
+            BigInt(options.seed),
+            options.timeLimit,
+            workAmount(options.workLimit),
+            options.memoryLimit,
+        ),
+    );
+}
+
+/**
+ * Steps the job to its end. `isAlive` is asked after every pause, in which the session may have
+ * been disposed of.
+ */
+export async function runJob(
+    core: Core,
+    job: Handle,
+    options: SolveOptions,
+    isAlive: () => boolean,
+): Promise<void> {
+    const milliseconds = options.slice?.milliseconds ?? defaultSlice;
+    const work = workAmount(options.slice?.work ?? Infinity);
+    if (!(milliseconds > 0) || work === 0n) {
+        throw new LayoutError("invalidOption", "a slice is empty; give it some time and work.");
+    }
+    let seen = 0;
+    for (let running = true; running;) {
+        if (options.signal?.aborted === true) {
+            core.call("boundary_job_cancel", job);
+        }
+        running = core.count("boundary_job_step", job, milliseconds, work) === 1;
+        if (options.onProgress) {
+            seen = reportProgress(core, job, seen, options.onProgress);
+        }
+        await pause();
+        if (!isAlive()) {
+            throw javaScriptError("disposed", "the session was disposed of while solving");
+        }
+    }
+}
+
+/** Everything about a job that has ended; throws the error of one that failed. */
+export function readResult(
+    core: Core,
+    job: Handle,
+    edges: Uint32Array,
+    landmarks: Uint32Array,
+): EmbedResult {
+    core.call("boundary_job_state", job);
+    const [status, scope, cost, lowerBound, gap, seconds, cpuSeconds, ...counts] =
+        core.viewedDoubles() as unknown as number[];
+    const name = statuses[status ?? 0] ?? "failed";
+    if (name === "failed" || name === "running") {
+        throw jobError(core, job);
+    }
+    core.call("boundary_job_exact", job);
+    const [exactCost, exactLowerBound] = core.viewedLongs();
+    core.call("boundary_job_insertion_order", job);
+    const insertionOrder = core.viewedIds();
+    const refined = readRefined(core, job);
+    return {
+        status: name,
+        cost: cost ?? Infinity,
+        lowerBound: lowerBound ?? 0,
+        gap: gap ?? 1,
+        boundScope: scopes[scope ?? 0] ?? "embeddings",
+        exactCost: exactCost === undefined || exactCost === maximalWork ? null : exactCost,
+        exactLowerBound: exactLowerBound ?? 0n,
+        edges: refined === null ? [] : readEdges(core, job, edges, refined),
+        refined,
+        landmarks: landmarks.slice(),
+        insertionOrder,
+        events: readEvents(core, job, 0),
+        counters: {
+            searches: counts[0] ?? 0,
+            expansions: counts[1] ?? 0,
+            fieldNodes: counts[2] ?? 0,
+            insertions: counts[3] ?? 0,
+            ties: counts[4] ?? 0,
+        },
+        seconds: seconds ?? 0,
+        cpuSeconds: cpuSeconds ?? 0,
+        message: name === "memoryLimit" ? jobError(core, job).message : null,
+    };
+}
+
+/** What stopped the job. */
+function jobError(core: Core, job: Handle): LayoutError {
+    core.call("boundary_job_error", job);
+    return core.lastError();
+}
+
+/** Reports the last of the events from `seen` on, if there are any; the number of events now. */
+function reportProgress(
+    core: Core,
+    job: Handle,
+    seen: number,
+    onProgress: NonNullable<SolveOptions["onProgress"]>,
+): number {
+    const events = readEvents(core, job, seen);
+    const last = events.at(-1);
+    if (last !== undefined) {
+        const { phase, seconds, work, cost, lowerBound, progress } = last;
+        const moved = events.some(
+            (event) => event.kind === "incumbent" || event.kind === "progress",
+        );
+        const paths = moved ? readPaths(core, job) : null;
+        onProgress({ phase, seconds, work, cost, lowerBound, progress, paths });
+    }
+    return seen + events.length;
+}
+
+function readEvents(core: Core, job: Handle, first: number): EmbedEvent[] {
+    core.call("boundary_job_events", job, first);
+    const numbers = core.viewedDoubles();
+    const events: EmbedEvent[] = [];
+    for (let i = 0; i < numbers.length; i += 7) {
+        const [kind, phase, seconds, work, cost, lowerBound, progress] = numbers.subarray(
+            i,
+            i + 7,
+        ) as unknown as [number, number, number, number, number, number, number];
+        events.push({
+            kind: eventKinds[kind] ?? "progress",
+            phase: phases[phase] ?? "done",
+            seconds,
+            work,
+            cost,
+            lowerBound,
+            progress,
+        });
+    }
+    return events;
+}
+
+function readPaths(core: Core, job: Handle): Polylines {
+    core.call("boundary_job_path_offsets", job);
+    const offsets = core.viewedIds();
+    core.call("boundary_job_path_points", job);
+    const points = core.viewedDoubles();
+    core.call("boundary_job_path_edges", job);
+    return { offsets, points, layoutEdges: core.viewedIds() };
+}
+
+function readRefined(core: Core, job: Handle): RefinedMesh | null {
+    if (!core.test("boundary_job_refined_positions", job)) {
+        return null;
+    }
+    const positions = core.viewedDoubles(3);
+    const ids = (name: string) => {
+        core.call(`boundary_job_refined_${name}`, job);
+        return core.viewedIds();
+    };
+    const corners = ids("corners");
+    const patches = ids("triangle_patches");
+    const triangleFaces = ids("triangle_faces");
+    const vertexFaces = ids("vertex_faces");
+    core.call("boundary_job_refined_vertex_barycentrics", job);
+    return {
+        positions,
+        corners,
+        // kNone, all bits set, becomes -1.
+        patches: new Int32Array(patches.buffer),
+        triangleFaces,
+        vertexFaces,
+        vertexBarycentrics: core.viewedDoubles(3),
+    };
+}
+
+function readEdges(
+    core: Core,
+    job: Handle,
+    layoutEdges: Uint32Array,
+    refined: RefinedMesh,
+): EmbeddedEdge[] {
+    const ids = (name: string, size = 1) => {
+        core.call(name, job);
+        return core.viewedIds(size);
+    };
+    const chainOffsets = ids("boundary_job_chain_offsets");
+    const chainVertices = ids("boundary_job_chain_vertices");
+    const weakOffsets = ids("boundary_job_weak_offsets");
+    const weakPoints = ids("boundary_job_weak_points", 3);
+    const edges: EmbeddedEdge[] = [];
+    for (let id = 0; id < layoutEdges.length / 2; ++id) {
+        const chain = chainVertices.slice(chainOffsets[id], chainOffsets[id + 1]);
+        edges.push({
+            id,
+            layoutEdge: [layoutEdges[2 * id] ?? 0, layoutEdges[2 * id + 1] ?? 0],
+            chain,
+            length: chainLength(refined.positions, chain),
+            weakPath: weakPath(weakPoints, weakOffsets[id] ?? 0, weakOffsets[id + 1] ?? 0),
+        });
+    }
+    return edges;
+}
+
+function weakPath(points: Uint32Array, begin: number, end: number): WeakPoint[] {
+    const path: WeakPoint[] = [];
+    for (let i = begin; i < end; ++i) {
+        path.push(Array.from(points.subarray(3 * i, 3 * i + 3)).filter((id) => id !== none));
+    }
+    return path;
+}
+
+/** The length of a chain of mesh vertices. */
+export function chainLength(positions: ArrayLike<number>, chain: ArrayLike<number>): number {
+    let length = 0;
+    for (let i = 1; i < chain.length; ++i) {
+        let square = 0;
+        for (let axis = 0; axis < 3; ++axis) {
+            const from = positions[3 * (chain[i - 1] ?? 0) + axis] ?? NaN;
+            const to = positions[3 * (chain[i] ?? 0) + axis] ?? NaN;
+            square += (to - from) * (to - from);
+        }
+        length += Math.sqrt(square);
+    }
+    return length;
+}
+
+function workAmount(limit: number): bigint {
+    return limit < 2 ** 63 ? BigInt(Math.floor(limit)) : maximalWork;
+}
+
+/**
+ * Resolves after other events had their turn. Not setTimeout(), which browsers delay by
+ * milliseconds.
+ */
+function pause(): Promise<void> {
+    const { setImmediate } = globalThis as { setImmediate?: (callback: () => void) => void };
+    if (setImmediate !== undefined) {
+        return new Promise((resolve) => {
+            setImmediate(resolve);
+        });
+    }
+    return new Promise((resolve) => {
+        const { port1, port2 } = new MessageChannel();
+        port1.onmessage = () => {
+            port1.close();
+            resolve();
+        };
+        port2.postMessage(null);
+    });
+}

@@ -1,0 +1,403 @@
+// The core of the interface: a layout, a target, landmarks, and what is solved with them, in an
+// instance of the WebAssembly module of its own. Disposing of the session frees all its memory.
+import { Core, type Handle } from "./core.js";
+import { javaScriptError, LayoutError } from "./errors.js";
+import { checkClaim } from "./claim.js";
+import {
+    embeddingDocument,
+    exportedFiles,
+    type EmbeddingDocument,
+    type Exportable,
+    type InputRecord,
+} from "./files.js";
+import { createJob, jobOptions, readResult, runJob, type JobOptions } from "./job.js";
+import type { InitOptions } from "./loader.js";
+import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
+import type {
+    EmbeddingClaim,
+    EmbeddingSession,
+    EmbedResult,
+    ExportedFiles,
+    LandmarkInput,
+    LandmarkOptions,
+    LandmarksInfo,
+    LayoutInfo,
+    LoadOptions,
+    MeshInput,
+    SolveOptions,
+    TargetInfo,
+    Violation,
+} from "./types.js";
+
+/** What the session holds of a layout or target. Nothing of it is handed out but as a copy. */
+interface Loaded {
+    mesh: LoadedMesh;
+    /** The layout or triangle mesh made from it. */
+    surface: Handle;
+    record: InputRecord;
+    vertexCount: number;
+}
+
+/** What layouts and targets have in common whatever their surface. */
+type CommonInfo = Omit<LayoutInfo, "corners" | "offsets" | "edges" | "positions">;
+
+/** The last embedding, kept for export. */
+interface Solved {
+    job: Handle;
+    options: JobOptions;
+    layoutEdges: Uint32Array;
+    landmarks: Uint32Array;
+    inputs: InputRecord[];
+    notes: string[];
+}
+
+export class Session implements EmbeddingSession {
+    private layout: Loaded | null = null;
+    private target: Loaded | null = null;
+    private landmarks: (LandmarksInfo & { record: InputRecord }) | null = null;
+    private solved: Solved | null = null;
+    private disposed = false;
+
+    private constructor(private readonly core: Core) {}
+
+    /** A new session; loads the module first where that has not happened. */
+    static async create(options: InitOptions = {}): Promise<Session> {
+        return new Session(await Core.create(options));
+    }
+
+    async loadLayout(input: MeshInput, options: LoadOptions = {}): Promise<LayoutInfo> {
+        const { core } = this;
+        const [loaded, common] = await this.load("layout", input, options);
+        const info = {
+            ...common,
+            ...arraysOf(core, loaded.mesh.handle),
+            edges: this.edgesOf(loaded),
+        };
+        this.forget(this.layout);
+        this.layout = loaded;
+        this.landmarks = null;
+        return info;
+    }
+
+    async loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
+        const [loaded, common] = await this.load("target", input, options);
+        const { positions, corners } = arraysOf(this.core, loaded.mesh.handle);
+        this.forget(this.target);
+        this.target = loaded;
+        this.landmarks = null;
+        return { ...common, positions, corners };
+    }
+
+    async setLandmarks(
+        input: LandmarkInput,
+        options: LandmarkOptions = {},
+    ): Promise<LandmarksInfo> {
+        const notes: string[] = [];
+        const record: InputRecord = { role: "landmarks", name: null, sha256: null };
+        let given: Uint32Array<ArrayBuffer>;
+        if ("bytes" in input) {
+            const bytes = byteArray(input.bytes, "the landmark file");
+            record.name = input.name ?? null;
+            record.sha256 = await sha256(bytes);
+            given = this.readLandmarks(bytes, input.name, notes);
+        } else {
+            given = landmarkIds(input);
+        }
+        const { layout, target } = this.inputs();
+        const landmarks =
+            options.numbering === "loaded" ? given : throughRepairs(given, layout, target);
+        this.confirm(layout, target, landmarks);
+        this.landmarks = { landmarks, notes, record };
+        return { landmarks: landmarks.slice(), notes: [...notes] };
+    }
+
+    async landmarksByProximity(): Promise<LandmarksInfo> {
+        const { core } = this;
+        const { layout, target } = this.inputs();
+        const notes: string[] = [];
+        const handle = core.call(
+            "boundary_landmarks_by_proximity",
+            layout.surface,
+            layout.mesh.handle,
+            target.surface,
+        );
+        const landmarks = this.takeLandmarks(handle, notes);
+        this.confirm(layout, target, landmarks);
+        const record: InputRecord = { role: "landmarks", name: null, sha256: null };
+        this.landmarks = { landmarks, notes, record };
+        return Promise.resolve({ landmarks: landmarks.slice(), notes: [...notes] });
+    }
+
+    async solve(options: SolveOptions = {}): Promise<EmbedResult> {
+        const { core } = this;
+        const { layout, target } = this.inputs();
+        const checked = jobOptions(options);
+        if (this.landmarks === null) {
+            await this.landmarksByProximity();
+            this.assertAlive();
+        }
+        const landmarks = this.landmarks;
+        if (landmarks === null) {
+            throw javaScriptError("missingInput", "there are no landmarks");
+        }
+        const layoutEdges = this.edgesOf(layout);
+        const job = createJob(core, layout.surface, target.surface, landmarks.landmarks, checked);
+        const solved: Solved = {
+            job,
+            options: checked,
+            layoutEdges,
+            landmarks: landmarks.landmarks,
+            inputs: [layout.record, target.record, landmarks.record],
+            notes: [...layout.mesh.notes, ...target.mesh.notes, ...landmarks.notes],
+        };
+        try {
+            await runJob(core, job, options, () => !this.disposed);
+            const result = readResult(core, job, layoutEdges, solved.landmarks);
+            core.destroy(this.solved?.job ?? null);
+            this.solved = solved;
+            return result;
+        } catch (reason) {
+            core.destroy(job);
+            throw reason;
+        }
+    }
+
+    async exportFiles(): Promise<ExportedFiles> {
+        const { core, solved } = this;
+        const exportable = this.exportable();
+        if (solved === null || !core.test("boundary_job_write_obj", solved.job)) {
+            throw javaScriptError("nothingToExport", "no embedding was found in this session");
+        }
+        const obj = core.viewedBytes();
+        return Promise.resolve({ "refined.obj": obj, ...exportedFiles(exportable) });
+    }
+
+    /** What embedding.json says of the last solve(), also where no embedding was found. */
+    embeddingDocument(): EmbeddingDocument {
+        return embeddingDocument(this.exportable());
+    }
+
+    async check(claim: EmbeddingClaim): Promise<Violation[]> {
+        const { layout, target } = this.inputs();
+        const { landmarks } = this;
+        if (landmarks === null) {
+            throw javaScriptError("missingInput", "there are no landmarks to check against");
+        }
+        return Promise.resolve(
+            checkClaim(
+                this.core,
+                layout.mesh.handle,
+                target.mesh.handle,
+                landmarks.landmarks,
+                claim,
+            ),
+        );
+    }
+
+    async dispose(): Promise<void> {
+        if (!this.disposed) {
+            this.disposed = true;
+            this.core.destroy(this.solved?.job ?? null);
+            this.forget(this.layout);
+            this.forget(this.target);
+        }
+        return Promise.resolve();
+    }
+
+    private exportable(): Exportable {
+        this.assertAlive();
+        const { core, solved } = this;
+        if (solved === null) {
+            throw javaScriptError("nothingToExport", "nothing has been solved in this session");
+        }
+        const { job, layoutEdges, landmarks, options, inputs, notes } = solved;
+        // Read again, since the caller may have changed what solve() returned.
+        const result = readResult(core, job, layoutEdges, landmarks);
+        return { result, options, inputs, notes, version: core.version() };
+    }
+
+    /** Reads, repairs and validates a mesh; leaves nothing behind if that fails. */
+    private async load(
+        role: "layout" | "target",
+        input: MeshInput,
+        options: LoadOptions,
+    ): Promise<[Loaded, CommonInfo]> {
+        this.assertAlive();
+        const { core } = this;
+        const record: InputRecord = { role, name: input.name ?? null, sha256: null };
+        if ("bytes" in input) {
+            record.sha256 = await sha256(byteArray(input.bytes, `the ${role}`));
+            this.assertAlive();
+        }
+        const mesh = readMesh(core, role, input, options.repair === true);
+        try {
+            const surface = core.withCopies((copy) => {
+                const subject = utf8(mesh.subject);
+                return core.call(
+                    `boundary_${role}_create`,
+                    mesh.handle,
+                    copy(subject),
+                    subject.length,
+                );
+            });
+            const common = this.describe(role, surface, mesh, input.name ?? role);
+            return [{ mesh, surface, record, vertexCount: common.vertexCount }, common];
+        } catch (reason) {
+            core.destroy(mesh.handle);
+            throw reason;
+        }
+    }
+
+    private describe(
+        role: "layout" | "target",
+        surface: Handle,
+        mesh: LoadedMesh,
+        name: string,
+    ): CommonInfo {
+        this.core.call(`boundary_${role}_counts`, surface);
+        const [vertexCount = 0, edgeCount = 0, faceCount = 0, boundaryLoopCount = 0] =
+            this.core.viewedDoubles();
+        return {
+            name,
+            vertexCount,
+            edgeCount,
+            faceCount,
+            eulerCharacteristic: vertexCount - edgeCount + faceCount,
+            boundaryLoopCount,
+            vertexMap: mesh.vertexMap?.slice() ?? null,
+            notes: [...mesh.notes],
+        };
+    }
+
+    private edgesOf(layout: Loaded): Uint32Array {
+        this.core.call("boundary_layout_edges", layout.surface);
+        return this.core.viewedIds();
+    }
+
+    private readLandmarks(bytes: Uint8Array, name: string | undefined, notes: string[]) {
+        this.assertAlive();
+        const { core } = this;
+        const handle = core.withCopies((copy) => {
+            const subject = utf8(`the landmark file${name === undefined ? "" : ` ${name}`}`);
+            return core.call(
+                "boundary_landmarks_read",
+                copy(bytes),
+                bytes.length,
+                copy(subject),
+                subject.length,
+                // After a repair, ids in the file are not those of the mesh.
+                this.target?.mesh.vertexMap === null ? this.target.mesh.handle : 0,
+            );
+        });
+        return this.takeLandmarks(handle, notes);
+    }
+
+    private takeLandmarks(handle: Handle, notes: string[]): Uint32Array<ArrayBuffer> {
+        const { core } = this;
+        try {
+            for (let i = 0; core.test("boundary_landmarks_note", handle, i); ++i) {
+                notes.push(core.viewedText());
+            }
+            core.call("boundary_landmarks_ids", handle);
+            return core.viewedIds();
+        } finally {
+            core.destroy(handle);
+        }
+    }
+
+    /** Throws unless layout, target and landmarks fit together. */
+    private confirm(layout: Loaded, target: Loaded, landmarks: Uint32Array): void {
+        const { core } = this;
+        core.withCopies((copy) =>
+            core.call(
+                "boundary_check_problem",
+                layout.surface,
+                target.surface,
+                copy(landmarks),
+                landmarks.length,
+            ),
+        );
+    }
+
+    private inputs(): { layout: Loaded; target: Loaded } {
+        this.assertAlive();
+        const { layout, target } = this;
+        if (layout === null || target === null) {
+            const missing = layout === null ? "layout" : "target";
+            throw javaScriptError("missingInput", `no ${missing} has been loaded`);
+        }
+        return { layout, target };
+    }
+
+    private forget(loaded: Loaded | null): void {
+        this.core.destroy(loaded?.surface ?? null);
+        this.core.destroy(loaded?.mesh.handle ?? null);
+    }
+
+    private assertAlive(): void {
+        if (this.disposed) {
+            throw javaScriptError("disposed", "the session cannot be used any more");
+        }
+    }
+}
+
+function landmarkIds(input: ArrayLike<number>): Uint32Array<ArrayBuffer> {
+    return idArray(
+        input,
+        (place, value) =>
+            new LayoutError(
+                "landmarkOutOfRange",
+                `landmark ${String(place)} is ${String(value)}; use 0-based vertex ids of the target.`,
+                { landmark: place },
+            ),
+    );
+}
+
+/** Landmarks given for the inputs as they were before a repair, in the ids after it. */
+function throughRepairs(
+    given: Uint32Array,
+    layout: Loaded,
+    target: Loaded,
+): Uint32Array<ArrayBuffer> {
+    const targetMap = target.mesh.vertexMap;
+    const ids = Uint32Array.from(given, (vertex, place) => {
+        const mapped = targetMap === null ? vertex : (targetMap[vertex] ?? vertex);
+        if (mapped < 0) {
+            throw new LayoutError(
+                "landmarkOutOfRange",
+                `landmark ${String(place)} is target vertex ${String(vertex)}, which the repair ` +
+                    "removed; use a vertex that belongs to a face.",
+                { landmark: place, vertex },
+            );
+        }
+        return mapped;
+    });
+    const layoutMap = layout.mesh.vertexMap;
+    // Whoever already left out the removed layout vertices is right, too.
+    if (layoutMap?.length !== ids.length || ids.length === layout.vertexCount) {
+        return ids;
+    }
+    const kept = new Uint32Array(layout.vertexCount);
+    // Backwards, so that of welded vertices the first one counts.
+    for (let vertex = ids.length - 1; vertex >= 0; --vertex) {
+        const mapped = layoutMap[vertex] ?? -1;
+        if (mapped >= 0) {
+            kept[mapped] = ids[vertex] ?? 0;
+        }
+    }
+    return kept;
+}
+
+function utf8(text: string): Uint8Array {
+    return new TextEncoder().encode(text);
+}
+
+/** As hexadecimal digits; null where the platform offers no hashing (pages not served securely). */
+async function sha256(bytes: Uint8Array<ArrayBuffer>): Promise<string | null> {
+    const { crypto } = globalThis as { crypto?: { subtle?: SubtleCrypto } };
+    if (crypto?.subtle === undefined) {
+        return null;
+    }
+    const hash = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
+    return Array.from(hash, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}

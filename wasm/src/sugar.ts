@@ -1,0 +1,17 @@
+import type { EmbeddingSession, EmbedOptions, EmbedProblem, EmbedResult } from "./types.js";
+
+/** One embedding from beginning to end in a fresh session of either kind. */
+export async function embedIn(
+    session: EmbeddingSession,
+    problem: EmbedProblem,
+    options: EmbedOptions,
+): Promise<EmbedResult> {
+    const { repair, ...solveOptions } = options;
+    const load = { repair: repair === true };
+    await session.loadLayout(problem.layout, load);
+    await session.loadTarget(problem.target, load);
+    if (problem.landmarks !== undefined) {
+        await session.setLandmarks(problem.landmarks);
+    }
+    return session.solve(solveOptions);
+}

@@ -1,0 +1,326 @@
+// The data that go in and out of the package, the same in a thread of its own (client.ts) and in
+// the caller's (session.ts). Units are the target's; all ids are 0-based.
+
+/** A mesh as typed arrays; they are copied, never kept. */
+export interface MeshArrays {
+    /** 3 coordinates per vertex. */
+    positions: ArrayLike<number>;
+    /** Vertex ids, counter-clockwise around each face. */
+    corners: ArrayLike<number>;
+    /**
+     * One more number than there are faces: face f has the corners from `offsets[f]` up to, not
+     * including, `offsets[f + 1]`. Left out, every face is a triangle.
+     */
+    offsets?: ArrayLike<number>;
+    /** What messages call the mesh. */
+    name?: string;
+}
+
+/** A mesh as the content of a file. */
+export interface MeshFile {
+    bytes: Uint8Array | ArrayBuffer;
+    /** The file's name: what messages call the mesh, and its ending gives the format. */
+    name?: string;
+    /** The format, where the name doesn't tell. Left out, it is guessed from name and content. */
+    format?: MeshFormat;
+}
+
+export type MeshFormat = "obj" | "off";
+export type MeshInput = MeshArrays | MeshFile;
+
+/** The content of a landmark file: one target vertex id per line. */
+export interface LandmarkFile {
+    bytes: Uint8Array | ArrayBuffer;
+    name?: string;
+}
+
+/** One target vertex id per layout vertex, in the order of the layout's vertices. */
+export type LandmarkInput = ArrayLike<number> | LandmarkFile;
+
+export interface LoadOptions {
+    /**
+     * Mends what can be mended safely: exactly coincident vertices are welded, unused vertices and
+     * degenerate or duplicate faces removed; `notes` says what was done. Off by default.
+     */
+    repair?: boolean;
+}
+
+/** What was done to an input, or what deserves attention; one sentence each. */
+export type Notes = string[];
+
+/** A layout as it was read (and repaired). */
+export interface LayoutInfo {
+    name: string;
+    vertexCount: number;
+    edgeCount: number;
+    faceCount: number;
+    /** V - E + F. */
+    eulerCharacteristic: number;
+    boundaryLoopCount: number;
+    /** 3 coordinates per vertex. */
+    positions: Float64Array;
+    /** Vertex ids per face, and where each face begins (as in MeshArrays). */
+    corners: Uint32Array;
+    offsets: Uint32Array;
+    /** Two vertex ids per edge; results list edges in this order and direction. */
+    edges: Uint32Array;
+    /** Per vertex of the input: its id here, -1 where it was removed; null without a repair. */
+    vertexMap: Int32Array | null;
+    notes: Notes;
+}
+
+/** A target as it was read (and repaired). */
+export interface TargetInfo {
+    name: string;
+    vertexCount: number;
+    edgeCount: number;
+    faceCount: number;
+    eulerCharacteristic: number;
+    boundaryLoopCount: number;
+    /** 3 coordinates per vertex. */
+    positions: Float64Array;
+    /** 3 vertex ids per triangle, counter-clockwise. */
+    corners: Uint32Array;
+    /** Per vertex of the input: its id here, -1 where it was removed; null without a repair. */
+    vertexMap: Int32Array | null;
+    notes: Notes;
+}
+
+export interface LandmarkOptions {
+    /**
+     * Whose ids the landmarks are, which matters after a repair: those of the target as it was
+     * given (the default), or as it was loaded (TargetInfo.positions).
+     */
+    numbering?: "given" | "loaded";
+}
+
+export interface LandmarksInfo {
+    /** Target vertex id (after a repair) per layout vertex. */
+    landmarks: Uint32Array;
+    notes: Notes;
+}
+
+export type Algorithm = "greedy";
+
+/** Why a job ended. */
+export type EmbedStatus =
+    /** The gap is 0 in the stated scope. */
+    | "optimal"
+    /** The gap is at most the one asked for. */
+    | "gapReached"
+    /** The algorithm came to its end with an embedding, without proving the gap asked for. */
+    | "feasible"
+    | "timeLimit"
+    | "workLimit"
+    | "memoryLimit"
+    | "cancelled"
+    /** Proved: there is no embedding. */
+    | "infeasible"
+    /** The algorithm came to its end without an embedding. */
+    | "noneFound";
+
+/** What a lower bound bounds: every embedding, or only those made by inserting path after path. */
+export type BoundScope = "embeddings" | "insertionSequences";
+
+export type EmbedPhase = "prepare" | "search" | "realise" | "check" | "done";
+
+export interface SolveOptions {
+    algorithm?: Algorithm;
+    /** The gap to be reached, (cost - lowerBound) / cost; 0 asks for the optimum. Default 0.01. */
+    gap?: number;
+    /** Seconds for the search; results then depend on the machine. Default: no limit. */
+    timeLimit?: number;
+    /** Node expansions of all searches together; reproducible. Default: no limit. */
+    workLimit?: number;
+    /** Bytes the job may take, estimated before it starts. Default: what WebAssembly can address. */
+    memoryLimit?: number;
+    /** A non-negative integer; the same seed gives the same result on every machine. Default 1. */
+    seed?: number;
+    /**
+     * Ends the search; the best embedding so far is still finished and returned, with the status
+     * `cancelled`. The promise is not rejected.
+     */
+    signal?: AbortSignal;
+    /** Called between slices of work, whenever something happened. */
+    onProgress?: (progress: EmbedProgress) => void;
+    /**
+     * How much the job does at a time before it lets other events be handled. Has no influence on
+     * the result. Default 15 ms.
+     */
+    slice?: { milliseconds?: number; work?: number };
+}
+
+/** Paths as polylines, ready to draw. */
+export interface Polylines {
+    /** Per path: its first point; one more number than there are paths. */
+    offsets: Uint32Array;
+    /** 3 coordinates per point. */
+    points: Float64Array;
+    /** Per path: the layout edge. */
+    layoutEdges: Uint32Array;
+}
+
+/** The state of a running job. */
+export interface EmbedProgress {
+    phase: EmbedPhase;
+    /** Share of the phase that is done, in [0, 1]. */
+    progress: number;
+    seconds: number;
+    /** Node expansions so far. */
+    work: number;
+    /** Infinity while there is no embedding. */
+    cost: number;
+    lowerBound: number;
+    /** The best embedding's paths, or those embedded so far; null while unchanged. */
+    paths: Polylines | null;
+}
+
+export type EmbedEventKind = "phase" | "incumbent" | "bound" | "progress";
+
+/** Something that happened, with the state after it. */
+export interface EmbedEvent {
+    kind: EmbedEventKind;
+    phase: EmbedPhase;
+    seconds: number;
+    work: number;
+    cost: number;
+    lowerBound: number;
+    progress: number;
+}
+
+/** Machine-independent counts. */
+export interface EmbedCounters {
+    /** Shortest-path searches in the cut surface. */
+    searches: number;
+    /** States of the cut surface expanded by them; the unit of work. */
+    expansions: number;
+    /** Nodes settled by the distance fields that guide them. */
+    fieldNodes: number;
+    /** Paths inserted into embeddings. */
+    insertions: number;
+    /** How often a tie made the job draw new perturbations. */
+    ties: number;
+}
+
+/**
+ * A point of a weak path: one target vertex id (that vertex), two (the midpoint of their edge) or
+ * three (the centroid of their face).
+ */
+export type WeakPoint = number[];
+
+/** A layout edge on the target. */
+export interface EmbeddedEdge {
+    /** The layout edge, as in LayoutInfo.edges. */
+    id: number;
+    /** Its two layout vertices: start and end of the chain. */
+    layoutEdge: [number, number];
+    /** Vertex ids of the refined mesh, from landmark to landmark. */
+    chain: Uint32Array;
+    /** The chain's length on the surface. */
+    length: number;
+    /** The path in the path graph, whose length counts in `cost`. */
+    weakPath: WeakPoint[];
+}
+
+/**
+ * The target, subdivided so that every layout edge is a chain of mesh edges and every layout face
+ * a patch of triangles. The target's vertices keep their ids, new ones follow.
+ */
+export interface RefinedMesh {
+    /** 3 coordinates per vertex. */
+    positions: Float64Array;
+    /** 3 vertex ids per triangle, counter-clockwise. */
+    corners: Uint32Array;
+    /** Per triangle: the layout face, -1 outside all of them (a layout with boundary). */
+    patches: Int32Array;
+    /** Per triangle: the target face it lies in. */
+    triangleFaces: Uint32Array;
+    /** Per new vertex: a target face that holds it ... */
+    vertexFaces: Uint32Array;
+    /** ... and its 3 barycentric coordinates there, in the order of the face's corners. */
+    vertexBarycentrics: Float64Array;
+}
+
+export interface EmbedResult {
+    status: EmbedStatus;
+    /** In the path-graph metric (see the README); Infinity without an embedding. */
+    cost: number;
+    /** Of the costs of all embeddings in `boundScope`. */
+    lowerBound: number;
+    /** (cost - lowerBound) / cost; 1 without an embedding. */
+    gap: number;
+    boundScope: BoundScope;
+    /** The cost as the solver adds it up, an integer; null without an embedding. */
+    exactCost: bigint | null;
+    exactLowerBound: bigint;
+    /** One per layout edge, in the layout's order; empty without an embedding. */
+    edges: EmbeddedEdge[];
+    /** Null without an embedding. */
+    refined: RefinedMesh | null;
+    landmarks: Uint32Array;
+    /** Layout edges in the order in which they were embedded. */
+    insertionOrder: Uint32Array;
+    events: EmbedEvent[];
+    counters: EmbedCounters;
+    seconds: number;
+    cpuSeconds: number;
+    /** One sentence where the status does not say it all: what did not fit into memory. */
+    message: string | null;
+}
+
+/** The files of a finished embedding; their formats are described in the README. */
+export interface ExportedFiles {
+    "refined.obj": Uint8Array;
+    "refined_map.json": Uint8Array;
+    "embedding.json": Uint8Array;
+}
+
+/** A claimed embedding, to be checked against the session's layout, target and landmarks. */
+export interface EmbeddingClaim {
+    refined: RefinedMesh;
+    edges: { layoutEdge: [number, number]; chain: ArrayLike<number>; weakPath: WeakPoint[] }[];
+}
+
+/** A reason to refuse an embedding. */
+export interface Violation {
+    /** A stable camelCase name. */
+    code: string;
+    /** One sentence with the ids concerned. */
+    message: string;
+}
+
+/** One layout, one target, landmarks, and what is solved with them. */
+export interface EmbeddingSession {
+    /** Reads a layout. A failed load changes nothing; a successful one forgets the landmarks. */
+    loadLayout(input: MeshInput, options?: LoadOptions): Promise<LayoutInfo>;
+    /** Reads a target. A failed load changes nothing; a successful one forgets the landmarks. */
+    loadTarget(input: MeshInput, options?: LoadOptions): Promise<TargetInfo>;
+    /**
+     * Sets the landmarks and confirms that layout, target and landmarks fit together. A failure
+     * changes nothing.
+     */
+    setLandmarks(input: LandmarkInput, options?: LandmarkOptions): Promise<LandmarksInfo>;
+    /**
+     * Sets the landmarks to the one-to-one assignment of least total squared distance, for a layout
+     * that lies in the frame of the target.
+     */
+    landmarksByProximity(): Promise<LandmarksInfo>;
+    /** Embeds the layout; without landmarks, those by proximity are set first. */
+    solve(options?: SolveOptions): Promise<EmbedResult>;
+    /** The files of the last embedding that solve() returned. */
+    exportFiles(): Promise<ExportedFiles>;
+    /** What is wrong with a claimed embedding; empty if it is valid. */
+    check(claim: EmbeddingClaim): Promise<Violation[]>;
+    /** Frees everything; the session cannot be used any more. */
+    dispose(): Promise<void>;
+}
+
+/** What embed() embeds where. */
+export interface EmbedProblem {
+    layout: MeshInput;
+    target: MeshInput;
+    /** Default: by proximity. */
+    landmarks?: LandmarkInput;
+}
+
+export interface EmbedOptions extends SolveOptions, LoadOptions {}

@@ -1,0 +1,104 @@
+import type { Actions } from "../model/actions.js";
+import { formatSeconds, statusWords } from "../model/describe.js";
+import type { AppState } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { element, setText } from "./dom.js";
+
+/** Options, the button that solves and cancels, progress. */
+export function solvePanel(store: Store<AppState>, actions: Actions): void {
+    const button = element("solve", HTMLButtonElement);
+    button.addEventListener("click", () => toggleSolve(store, actions));
+    optionInputs(store, actions);
+
+    const progress = element("progress", HTMLElement);
+    const bar = element("progress-bar", HTMLProgressElement);
+    let ticking: ReturnType<typeof setInterval> | undefined;
+    store.watch(
+        (state) => [state.activity, state.layout, state.target, state.landmarks],
+        (activity, layout, target, landmarks) => {
+            const solving = activity?.kind === "solving";
+            const ready = layout && target && landmarks;
+            button.textContent = solving
+                ? activity.cancelling
+                    ? "Cancelling …"
+                    : "Cancel"
+                : "Solve";
+            button.disabled = solving ? activity.cancelling : !ready || activity !== null;
+            button.classList.toggle("cancel", solving);
+            progress.hidden = !activity;
+            clearInterval(ticking);
+            if (!activity) return;
+            setText("phase", `${activity.phase} …`);
+            if (activity.progress === null) bar.removeAttribute("value");
+            else bar.value = activity.progress;
+            const tick = () => {
+                setText("elapsed", formatSeconds((performance.now() - activity.startedAt) / 1000));
+            };
+            tick();
+            ticking = setInterval(tick, 100);
+        },
+    );
+
+    // Phases and outcomes are announced, never figures that change all the time.
+    store.watch(
+        (state) => [
+            state.activity?.phase,
+            state.result,
+            state.landmarks,
+            state.layout,
+            state.target,
+        ],
+        () => {
+            const { activity, result } = store.get();
+            if (activity) return setText("status", "");
+            setText("status", result ? statusSentence(store.get()) : waitingSentence(store.get()));
+        },
+    );
+}
+
+/** Starts a solve, or cancels the one that runs. */
+export function toggleSolve(store: Store<AppState>, actions: Actions): void {
+    if (store.get().activity?.kind === "solving") actions.cancel();
+    else void actions.solve();
+}
+
+function statusSentence({ result }: AppState): string {
+    if (!result) return "";
+    const words = statusWords[result.status];
+    if (!result.refined) return `${words}.`;
+    return `${words}. It took ${formatSeconds(result.seconds)}.`;
+}
+
+function waitingSentence({ layout, target, landmarks }: AppState): string {
+    if (!layout && !target) return "Choose a layout and a target.";
+    if (!layout) return "Choose a layout.";
+    if (!target) return "Choose a target.";
+    return landmarks ? "Ready to solve." : "Choose landmarks, or place them by proximity.";
+}
+
+function optionInputs(store: Store<AppState>, actions: Actions): void {
+    const gap = element("gap", HTMLInputElement);
+    const timeLimit = element("time-limit", HTMLInputElement);
+    const seed = element("seed", HTMLInputElement);
+    const number = (input: HTMLInputElement) =>
+        input.value !== "" && input.validity.valid ? input.valueAsNumber : null;
+    gap.addEventListener("change", () => {
+        const percent = number(gap);
+        if (percent !== null) actions.setOptions({ gap: percent / 100 });
+    });
+    timeLimit.addEventListener("change", () =>
+        actions.setOptions({ timeLimit: number(timeLimit) }),
+    );
+    seed.addEventListener("change", () => {
+        const value = number(seed);
+        if (value !== null) actions.setOptions({ seed: value });
+    });
+    store.watch(
+        (state) => [state.options],
+        (options) => {
+            gap.value = String(Number((100 * options.gap).toPrecision(12)));
+            timeLimit.value = options.timeLimit === null ? "" : String(options.timeLimit);
+            seed.value = String(options.seed);
+        },
+    );
+}

@@ -1,0 +1,227 @@
+import {
+    AmbientLight,
+    Box3,
+    Color,
+    DirectionalLight,
+    Group,
+    PerspectiveCamera,
+    Scene,
+    Sphere,
+    Spherical,
+    Vector3,
+    WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+/** Where a camera stands, independent of what it looks at. */
+export interface Pose {
+    /** Unit vector from the centre of attention to the eye. */
+    readonly direction: Vector3;
+    /** Distance of the eye in radii of the scene. */
+    readonly distance: number;
+}
+
+const startDirection = new Vector3(0.62, 0.38, 0.78).normalize();
+
+/**
+ * A 3D view in a host element: scene, camera, pointer and key control. It draws only when asked to,
+ * never in a loop of its own.
+ */
+export class Viewer {
+    readonly content = new Group();
+    readonly canvas: HTMLCanvasElement;
+    readonly renderer: WebGLRenderer;
+    readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+    /** Called when a person has moved the camera, not after setPose(). */
+    onPoseChange: (() => void) | null = null;
+    /** Radius of what is shown. */
+    radius = 1;
+
+    private readonly scene = new Scene();
+    private readonly controls: OrbitControls;
+    private frame = 0;
+    private following = false;
+
+    /** Throws if WebGL is not available. */
+    constructor(
+        private readonly host: HTMLElement,
+        label: string,
+    ) {
+        this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+        this.canvas = this.renderer.domElement;
+        this.canvas.tabIndex = 0;
+        this.canvas.setAttribute("role", "img");
+        this.canvas.setAttribute("aria-label", label);
+        host.prepend(this.canvas);
+
+        const headlight = new DirectionalLight(0xffffff, 1.75);
+        headlight.position.set(-0.5, 0.9, 1.2);
+        const fill = new DirectionalLight(0xffffff, 0.45);
+        fill.position.set(1, -0.4, 0.3);
+        this.camera.add(headlight, fill);
+        this.scene.add(this.camera, new AmbientLight(0xffffff, 1.15), this.content);
+
+        this.controls = new OrbitControls(this.camera, this.canvas);
+        this.controls.enableDamping = false;
+        this.controls.zoomToCursor = true;
+        this.controls.addEventListener("change", () => {
+            this.requestRender();
+            if (!this.following) this.onPoseChange?.();
+        });
+        this.canvas.addEventListener("keydown", (event) => this.handleKey(event));
+        new ResizeObserver(() => this.resize()).observe(host);
+        this.resetView();
+    }
+
+    /** Points the camera at what is shown: 3 coordinates per vertex. */
+    frameOn(positions: ArrayLike<number>): void {
+        const sphere = boundingSphere(positions);
+        this.radius = sphere.radius > 0 ? sphere.radius : 1;
+        this.center.copy(sphere.center);
+        this.silhouette = sampled(positions, this.center, this.radius);
+        this.resetView();
+    }
+
+    setBackground(color: string): void {
+        this.scene.background = new Color(color);
+        this.requestRender();
+    }
+
+    resetView(): void {
+        this.controls.target.copy(this.center);
+        this.moveTo(startDirection, this.fittingDistance());
+    }
+
+    pose(): Pose {
+        const offset = this.camera.position.clone().sub(this.controls.target);
+        const length = offset.length();
+        return {
+            direction: offset.divideScalar(length),
+            distance: length / this.fittingDistance(),
+        };
+    }
+
+    /** Looks from the same side and as near as another view does. */
+    setPose(pose: Pose): void {
+        this.following = true;
+        this.moveTo(pose.direction, pose.distance * this.fittingDistance());
+        this.following = false;
+    }
+
+    requestRender(): void {
+        if (this.frame === 0) this.frame = requestAnimationFrame(() => this.render());
+    }
+
+    /** The picture as a PNG. */
+    async screenshot(): Promise<Blob> {
+        // The drawing buffer is only readable right after drawing.
+        this.render();
+        return new Promise((resolve, reject) => {
+            this.canvas.toBlob((blob) => {
+                if (blob) resolve(blob);
+                else reject(new Error("the picture could not be encoded"));
+            }, "image/png");
+        });
+    }
+
+    /** Frames drawn so far: shows in tests that nothing is drawn in a loop. */
+    get frames(): number {
+        return this.renderer.info.render.frame;
+    }
+
+    private readonly center = new Vector3();
+    /** Some of the vertices, relative to the centre, in radii. */
+    private silhouette: readonly Vector3[] = [];
+
+    private render(): void {
+        cancelAnimationFrame(this.frame);
+        this.frame = 0;
+        const distance = this.camera.position.distanceTo(this.center);
+        this.camera.near = Math.max(distance - 1.5 * this.radius, 0.01 * this.radius);
+        this.camera.far = distance + 1.5 * this.radius;
+        this.camera.updateProjectionMatrix();
+        this.renderer.render(this.scene, this.camera);
+    }
+
+    /** How far from the centre the eye has to be, on the starting side, to see everything. */
+    private fittingDistance(): number {
+        const tangent = Math.tan(((this.camera.fov / 2) * Math.PI) / 180);
+        const right = new Vector3().crossVectors(this.camera.up, startDirection).normalize();
+        const up = new Vector3().crossVectors(startDirection, right);
+        let distance = 1;
+        for (const point of this.silhouette) {
+            const toward = point.dot(startDirection);
+            const x = Math.abs(point.dot(right)) / (tangent * this.camera.aspect);
+            const y = Math.abs(point.dot(up)) / tangent;
+            distance = Math.max(distance, toward + 1.14 * Math.max(x, y));
+        }
+        return distance * this.radius;
+    }
+
+    private moveTo(direction: Vector3, distance: number): void {
+        this.controls.minDistance = 0.05 * this.radius;
+        this.controls.maxDistance = 20 * this.radius;
+        this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
+        this.controls.update();
+        this.requestRender();
+    }
+
+    private resize(): void {
+        const { clientWidth: width, clientHeight: height } = this.host;
+        if (width === 0 || height === 0) return;
+        const { distance } = this.pose();
+        const ratio = Math.min(devicePixelRatio, 2);
+        this.renderer.setPixelRatio(ratio);
+        this.renderer.setSize(width, height);
+        this.camera.aspect = width / height;
+        this.setPose({ direction: this.pose().direction, distance });
+    }
+
+    private handleKey(event: KeyboardEvent): void {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        const step = Math.PI / 24;
+        const turns: Record<string, [number, number]> = {
+            ArrowLeft: [-step, 0],
+            ArrowRight: [step, 0],
+            ArrowUp: [0, -step],
+            ArrowDown: [0, step],
+        };
+        const offset = this.camera.position.clone().sub(this.controls.target);
+        const turn = turns[event.key];
+        if (turn) {
+            const spherical = new Spherical().setFromVector3(offset);
+            spherical.theta += turn[0];
+            spherical.phi += turn[1];
+            spherical.makeSafe();
+            offset.setFromSpherical(spherical);
+        } else if (event.key === "+" || event.key === "=") {
+            offset.multiplyScalar(0.88);
+        } else if (event.key === "-") {
+            offset.divideScalar(0.88);
+        } else {
+            return;
+        }
+        event.preventDefault();
+        this.moveTo(offset.clone().normalize(), offset.length());
+    }
+}
+
+function boundingSphere(positions: ArrayLike<number>): Sphere {
+    const box = new Box3();
+    const point = new Vector3();
+    for (let i = 0; i < positions.length; i += 3)
+        box.expandByPoint(point.set(positions[i]!, positions[i + 1]!, positions[i + 2]));
+    return box.isEmpty() ? new Sphere(new Vector3(), 1) : box.getBoundingSphere(new Sphere());
+}
+
+function sampled(positions: ArrayLike<number>, center: Vector3, radius: number): Vector3[] {
+    const points: Vector3[] = [];
+    const stride = 3 * Math.max(1, Math.floor(positions.length / 3 / 2000));
+    for (let i = 0; i < positions.length; i += stride)
+        points.push(
+            new Vector3(positions[i], positions[i + 1], positions[i + 2])
+                .sub(center)
+                .divideScalar(radius),
+        );
+    return points;
+}
