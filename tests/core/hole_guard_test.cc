@@ -87,31 +87,31 @@ EmbeddingProblem with_random_landmarks(const PolygonMesh& layout, const PolygonM
                       zoo::random_landmarks(target, layout.vertex_count(), random.bits()));
 }
 
-TEST(HoleGuard, without_it_holes_end_up_in_faces_and_with_it_they_do_not)
+// The guard only detects: on a disk, an edge whose shortest path leaves the hole on its wrong side
+// never gets another path by what is inserted after it. An edge that would force it away has a
+// shortest path that meets the wrong one twice with the hole in between, and both would be shortest
+// between the two points. Such problems end without an embedding (known limitation).
+TEST(HoleGuard, refuses_exactly_the_problems_that_end_with_a_hole_in_a_face_without_it)
 {
     Random random(71);
-    int wrong_without = 0;
-    int mended = 0;
-    int complete = 0;
-    for (int round = 0; round < 60; ++round) {
-        const PolygonMesh target = uneven_disk(6, random);
-        const EmbeddingProblem problem = with_random_landmarks(
-            round % 2 == 0 ? zoo::wheel(3) : zoo::quad_grid(1, 2), target, random);
+    int wrong_count = 0;
+    int complete_count = 0;
+    const std::vector<PolygonMesh> layouts{zoo::wheel(3), zoo::quad_grid(1, 2), zoo::wheel(6),
+                                           zoo::quad_grid(2, 2), zoo::quad_grid(1, 6)};
+    for (int round = 0; round < 300; ++round) {
+        const PolygonMesh target = uneven_disk(7, random);
+        const EmbeddingProblem problem =
+            with_random_landmarks(layouts[random.below(layouts.size())], target, random);
         test::SearchGround unguarded(problem, 1);
         const bool wrong = test::insert_naively(unguarded, test::Holes::ignored) &&
                            has_hole_in_patch(problem, unguarded);
-        wrong_without += wrong ? 1 : 0;
-        if (embeds_validly(problem, 1)) {
-            ++complete;
-            mended += wrong ? 1 : 0;
-        }
+        const bool complete = embeds_validly(problem, 1);
+        EXPECT_EQ(complete, !wrong);
+        wrong_count += wrong ? 1 : 0;
+        complete_count += complete ? 1 : 0;
     }
-    EXPECT_GT(wrong_without, 5);
-    EXPECT_GT(mended, 0);
-    EXPECT_GT(complete, 20);
-    RecordProperty("wrong_without", wrong_without);
-    RecordProperty("mended", mended);
-    RecordProperty("complete", complete);
+    EXPECT_GT(wrong_count, 50);
+    EXPECT_GT(complete_count, 50);
 }
 
 TEST(HoleGuard, disks_in_disks_with_inner_landmarks)

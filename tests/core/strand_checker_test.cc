@@ -33,6 +33,8 @@ std::set<std::string> codes(const Instance& instance, const WeakEmbedding& weak)
 
 using Codes = std::set<std::string>;
 
+constexpr int kTrialsPerInstance = 10;
+
 /// Passes over the edges of the path graph: by the smaller dart, from its right to its left, which
 /// path and which of its darts.
 std::map<Index, std::vector<std::pair<Index, Index>>> passes_of(const Instance& instance,
@@ -128,14 +130,10 @@ TEST(StrandChecker, two_paths_in_exchanged_lanes_cross)
         SCOPED_TRACE(instance.name);
         int tried = 0;
         for (const auto& [dart, row] : passes_of(instance, instance.weak)) {
-            if (row.size() < 2 || random.below(4) != 0 || tried >= 12) {
-                continue;  // a sample: every trial looks at the whole embedding
-            }
             for (std::size_t lane = 1; lane < row.size(); ++lane) {
-                ++tried;
                 const auto [p, i] = row[lane - 1];
                 const auto [q, j] = row[lane];
-                if (p == q) {
+                if (p == q || ++tried > kTrialsPerInstance) {
                     continue;
                 }
                 WeakEmbedding broken = instance.weak;
@@ -163,8 +161,8 @@ TEST(StrandChecker, a_lane_taken_twice_or_beyond_the_edge_is_refused)
         int shared = 0;
         int tried = 0;
         for (const auto& [dart, row] : passes_of(instance, instance.weak)) {
-            if (++tried > 20 && (row.size() < 2 || shared >= 5)) {
-                continue;  // a sample: every trial looks at the whole embedding
+            if (++tried > kTrialsPerInstance) {
+                break;
             }
             WeakEmbedding broken = instance.weak;
             const auto [p, i] = row[0];
@@ -269,12 +267,13 @@ TEST(StrandChecker, the_mirrored_order_is_refused_at_landmarks_of_degree_three)
             }
             mirrored.add_face(corners);
         }
+        // Of two strands around an inner point any order is right.
         bool has_order = false;
         for (Index v = 0; v < layout.vertex_count(); ++v) {
             has_order = has_order || layout.outgoing(v).size() > 2;
         }
         if (!has_order) {
-            continue;  // a single polygon is its own mirror image
+            continue;
         }
         const Instance other = moved_to(instance, mirrored);
         EXPECT_EQ(codes(other, other.weak), Codes{"strandOrder"});
