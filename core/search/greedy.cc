@@ -12,6 +12,7 @@ GreedySearch::GreedySearch(const EmbeddingProblem& problem, Strands& strands,
       search_(search),
       rule_(rule),
       hole_guard_(strands),
+      on_sphere_(problem.target->euler_characteristic() == 2),
       edge_count_(strands.layout().edge_count()),
       candidates_(edge_count_),
       parents_(strands.layout().vertex_count()),
@@ -121,7 +122,7 @@ GreedySearch::Outcome GreedySearch::insert_next()
         }
         return Outcome::running;
     }
-    if (side_test_ && closes_cycle(edge) && !side_test_->accepts(edge, candidate.darts)) {
+    if (side_test_ && closes_cycle(edge) && !parts_rightly(edge)) {
         candidate.is_refused = true;
         return Outcome::running;
     }
@@ -203,6 +204,23 @@ void GreedySearch::make_current(Index layout_edge)
         candidate.is_judged = true;
         candidate.is_suspect = swirl_test_->suspects(layout_edge, candidate.darts);
     }
+}
+
+// On a sphere a refusal holds as long as the path traces. Path and embedded edges close a simple
+// curve; some landmark lies on the wrong side of it, in a component of the embedded layout graph
+// that is not joined to the curve, since cyclic orders decide for those that are. It cannot be
+// joined later: in the layout that happens on the curve's other side, so that the joining strand
+// would cross the path. And where other strands come to lie between it and the path, one of their
+// own landmarks is on the wrong side by the same argument.
+bool GreedySearch::parts_rightly(Index layout_edge)
+{
+    Candidate& candidate = candidates_[layout_edge];
+    if (candidate.is_misparting) {
+        return false;
+    }
+    const bool accepted = side_test_->accepts(layout_edge, candidate.darts);
+    candidate.is_misparting = !accepted && on_sphere_;
+    return accepted;
 }
 
 Index GreedySearch::component(Index layout_vertex)

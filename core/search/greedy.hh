@@ -102,6 +102,8 @@ private:
         /// say in it.
         bool is_judged = false;
         bool is_suspect = false;
+        /// Whether the side test refused `darts` for good.
+        bool is_misparting = false;
         /// Not to be inserted in the present state.
         bool is_refused = false;
     };
@@ -123,6 +125,7 @@ private:
     Outcome keep_inserted(Index layout_edge);
     void begin_search(Index layout_edge);
     void make_current(Index layout_edge);
+    bool parts_rightly(Index layout_edge);
     Index component(Index layout_vertex);
     bool closes_cycle(Index layout_edge);
     bool is_admitted(Index layout_edge);
@@ -139,6 +142,7 @@ private:
     std::unique_ptr<RepulsiveGuide> guide_;
     std::unique_ptr<SwirlTest> swirl_test_;
     std::unique_ptr<SideTest> side_test_;
+    bool on_sphere_;
 
     Index edge_count_;
     Stage stage_ = Stage::bounding;
