@@ -17,16 +17,16 @@ CutSurfaceSearch::CutSurfaceSearch(const Strands& strands, DistanceFields& field
 void CutSurfaceSearch::begin(Index layout_edge, Length limit)
 {
     weights_ = {};
-    start(layout_edge);
+    start(layout_edge, limit);
 }
 
 void CutSurfaceSearch::begin_weighted(Index layout_edge, std::span<const NodeWeight> weights)
 {
     weights_ = weights;
-    start(layout_edge);
+    start(layout_edge, kInfiniteLength);
 }
 
-void CutSurfaceSearch::start(Index layout_edge)
+void CutSurfaceSearch::start(Index layout_edge, Length limit)
 {
     const Layout& layout = strands_.layout();
     ++search_count_;

@@ -77,7 +77,7 @@ private:
         }
     };
 
-    void start(Index layout_edge);
+    void start(Index layout_edge, Length limit);
     template <bool kWeighted>
     void expand(Index state);
     template <bool kWeighted>

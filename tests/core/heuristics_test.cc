@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <optional>
 #include <queue>
@@ -11,6 +12,7 @@
 #include "search/greedy.hh"
 #include "search/side_test.hh"
 #include "search/swirl_test.hh"
+#include "zoo.hh"
 
 namespace layout_embedding {
 namespace {
@@ -34,14 +36,16 @@ struct Instance {
 };
 
 /// Small and crowded spheres, then all kinds of surfaces.
-std::vector<Instance> all_instances(std::uint64_t seed, int spheres, int rounds)
+std::vector<Instance> all_instances(std::uint64_t seed, int spheres, bool with_others)
 {
     std::vector<Instance> all;
     for (auto& instance : test::random_instances(seed, spheres)) {
         all.push_back({instance.name, instance.problem, true});
     }
-    for (auto& instance : instances::random_instances(seed, rounds)) {
-        all.push_back({instance.name, instance.problem, false});
+    if (with_others) {
+        for (auto& instance : test::embedded_instances(seed)) {
+            all.push_back({instance.name, instance.problem, false});
+        }
     }
     return all;
 }
@@ -217,7 +221,7 @@ Found run_naively(const EmbeddingProblem& problem, const GreedyRule& rule)
 TEST(Greedy, looking_only_at_what_matters_gives_the_sequence_of_looking_at_everything)
 {
     std::array<int, kRules.size()> completed{};
-    for (const Instance& instance : all_instances(31, 45, 1)) {
+    for (const Instance& instance : all_instances(31, 45, true)) {
         for (std::size_t r = 0; r < kRules.size(); ++r) {
             SearchGround ground(instance.problem, 1);
             Found found = run_greedy(ground, instance.problem, kRules[r].rule, UINT64_MAX);
@@ -238,7 +242,7 @@ TEST(Greedy, every_rule_decides_something)
 {
     // The switches of each rule are seen to change the sequence on crowded instances.
     std::array<int, 5> changed{};
-    for (const Instance& instance : all_instances(32, 40, 0)) {
+    for (const Instance& instance : all_instances(32, 40, false)) {
         const auto order = [&](const GreedyRule& rule) {
             SearchGround ground(instance.problem, 1);
             return run_greedy(ground, instance.problem, rule, UINT64_MAX).order;
@@ -263,7 +267,7 @@ TEST(Greedy, every_rule_decides_something)
 
 TEST(Greedy, slicing_changes_nothing)
 {
-    for (const Instance& instance : all_instances(33, 9, 0)) {
+    for (const Instance& instance : all_instances(33, 9, false)) {
         for (const NamedRule& rule : kRules) {
             SearchGround whole(instance.problem, 1);
             SearchGround sliced(instance.problem, 1);
@@ -280,7 +284,7 @@ TEST(Greedy, a_spanning_tree_comes_first_where_the_rule_asks_for_it)
 {
     int trees = 0;
     int others = 0;
-    for (const Instance& instance : all_instances(34, 30, 0)) {
+    for (const Instance& instance : all_instances(34, 30, false)) {
         for (const NamedRule& rule : kRules) {
             SearchGround ground(instance.problem, 1);
             const Found found = run_greedy(ground, instance.problem, rule.rule, UINT64_MAX);
@@ -304,7 +308,7 @@ TEST(Greedy, a_spanning_tree_comes_first_where_the_rule_asks_for_it)
 TEST(Greedy, schreiner_inserts_admitted_edges_between_extremal_vertices_before_all_others)
 {
     int early = 0;
-    for (const Instance& instance : all_instances(35, 40, 0)) {
+    for (const Instance& instance : all_instances(35, 40, false)) {
         SearchGround fresh(instance.problem, 1);
         const std::set<Index> extremal = extremal_vertices(fresh);
         SearchGround ground(instance.problem, 1);
@@ -337,7 +341,7 @@ TEST(Greedy, schreiner_inserts_admitted_edges_between_extremal_vertices_before_a
 TEST(Greedy, every_algorithm_ends_in_an_embedding_the_checker_accepts_or_says_that_it_failed)
 {
     std::array<int, kRules.size()> found{};
-    for (const Instance& instance : all_instances(36, 12, 1)) {
+    for (const Instance& instance : all_instances(36, 12, true)) {
         for (std::size_t r = 0; r < kRules.size(); ++r) {
             EmbedOptions options;
             options.algorithm = static_cast<Algorithm>(r);
@@ -370,7 +374,7 @@ TEST(Greedy, every_algorithm_ends_in_an_embedding_the_checker_accepts_or_says_th
 
 TEST(CutSurfaceSearch, full_weights_give_the_plain_walk_and_others_a_shortest_one)
 {
-    for (const Instance& instance : all_instances(37, 8, 0)) {
+    for (const Instance& instance : all_instances(37, 8, false)) {
         SearchGround ground(instance.problem, 1);
         RepulsiveGuide guide(instance.problem, ground.graph);
         const Layout& layout = *instance.problem.layout;
@@ -416,9 +420,12 @@ protected:
 
     static PolygonMesh sphere()
     {
-        PolygonMesh mesh = instances::octahedron();
+        PolygonMesh mesh = zoo::octahedron();
         for (int level = 0; level < 4; ++level) {
-            mesh = instances::on_sphere(instances::subdivided(mesh));
+            mesh = zoo::subdivided(mesh);
+        }
+        for (Vec3& position : mesh.positions) {
+            position.normalize();
         }
         return mesh;
     }
@@ -444,9 +451,9 @@ protected:
             layout.add_face(face);
         }
         const PolygonMesh mesh = sphere();
-        return instances::problem(layout, mesh,
-                                  {nearest(mesh, -0.5, 0), nearest(mesh, 0.5, 0),
-                                   nearest(mesh, 0, 0.4), nearest(mesh, 0, -0.4)});
+        return test::problem_of(layout, mesh,
+                                {nearest(mesh, -0.5, 0), nearest(mesh, 0.5, 0),
+                                 nearest(mesh, 0, 0.4), nearest(mesh, 0, -0.4)});
     }
 
     Index edge(Index a, Index b) const
