@@ -23,7 +23,8 @@ struct SparseRows {
 ///
 /// Written out as scalar operations in a fixed order, so that solutions have the same bits on every
 /// platform: library solvers sum in an order that depends on vector units and cache sizes.
-/// For a surface mesh of n vertices: about 7 n log2 n bytes and n^1.5 operations.
+/// For a surface mesh of n vertices: about 70 n log2 n bytes and on the order of n^1.5 operations
+/// (0.1 s for 10k, 0.9 s for 41k vertices).
 class SparseLu {
 public:
     /// `matrix` has its whole diagonal stored, and (i, j) wherever it has (j, i).

@@ -110,7 +110,7 @@ std::uint64_t HarmonicFunctions::estimate_bytes(Index vertices)
         ++bits;
     }
     // The matrix twice, and the factors.
-    return std::uint64_t{vertices} * (300 + 40 * bits);
+    return std::uint64_t{vertices} * (300 + 75 * bits);
 }
 
 }  // namespace layout_embedding

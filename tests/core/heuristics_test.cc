@@ -133,7 +133,10 @@ Found run_naively(const EmbeddingProblem& problem, const GreedyRule& rule)
     const HoleGuard guard(strands);
     SwirlTest swirl_test(strands);
     SideTest side_test(problem, strands);
-    RepulsiveGuide guide(problem, ground.graph);
+    std::optional<RepulsiveGuide> guide;
+    if (rule.repulsive_guide) {
+        guide.emplace(problem, ground.graph);
+    }
     const std::set<Index> extremal = extremal_vertices(ground);
     Found found;
     for (;;) {
@@ -154,8 +157,8 @@ Found run_naively(const EmbeddingProblem& problem, const GreedyRule& rule)
             if (strands.is_embedded(e) || (rule.spanning_tree_first && !has_tree && closes)) {
                 continue;
             }
-            if (rule.repulsive_guide) {
-                ground.search.begin_weighted(e, guide.node_weights(i, j));
+            if (guide) {
+                ground.search.begin_weighted(e, guide->node_weights(i, j));
             } else {
                 ground.search.begin(e);
             }
