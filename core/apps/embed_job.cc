@@ -26,13 +26,29 @@ constexpr std::uint64_t kMaxFieldBytes = std::uint64_t{256} << 20U;
 // Perturbations drawn before a tie is reported.
 constexpr std::uint32_t kMaxAttempts = 8;
 
+GreedyRule rule_of(Algorithm algorithm)
+{
+    switch (algorithm) {
+        case Algorithm::greedy:
+            return GreedyRule::plain();
+        case Algorithm::praun:
+            return GreedyRule::praun();
+        case Algorithm::kraevoy:
+            return GreedyRule::kraevoy();
+        case Algorithm::schreiner:
+            return GreedyRule::schreiner();
+    }
+    return GreedyRule::plain();
+}
+
 /// Everything a search stands on, in the order in which it is built.
 struct Ground {
-    Ground(const EmbeddingProblem& problem, const PathGraph& graph, std::uint64_t field_bytes)
+    Ground(const EmbeddingProblem& problem, const PathGraph& graph, std::uint64_t field_bytes,
+           const GreedyRule& rule)
         : strands(problem, graph),
           fields(graph, strands.passable(), field_bytes),
           search(strands, fields),
-          greedy(strands, search)
+          greedy(problem, strands, search, rule)
     {}
 
     static std::uint64_t estimate_bytes(std::uint64_t nodes)
@@ -138,7 +154,11 @@ struct EmbedJob::Implementation {
         const std::uint64_t needed =
             PathGraph::estimate_bytes(target.vertex_count(), target.edge_count(),
                                       target.face_count()) +
-            Ground::estimate_bytes(nodes);
+            Ground::estimate_bytes(nodes) +
+            (rule_of(options.algorithm).repulsive_guide
+                 ? RepulsiveGuide::estimate_bytes(target.vertex_count(),
+                                                  problem.layout->vertex_count())
+                 : 0);
         if (needed > options.memory_limit) {
             fail(EmbedStatus::memory_limit,
                  make_error(ErrorCode::memoryLimit,
@@ -158,7 +178,7 @@ struct EmbedJob::Implementation {
     {
         ground.reset();
         graph = std::make_unique<PathGraph>(make_graph(*problem.target, {options.seed, attempt}));
-        ground = std::make_unique<Ground>(problem, *graph, field_bytes);
+        ground = std::make_unique<Ground>(problem, *graph, field_bytes, rule_of(options.algorithm));
     }
 
     /// Searches for a bounded number of expansions.
@@ -179,9 +199,7 @@ struct EmbedJob::Implementation {
                 emit(EventKind::bound, 0);
                 break;
             case GreedySearch::Outcome::inserted:
-                emit(EventKind::progress,
-                     static_cast<double>(ground->strands.insertion_order().size()) /
-                         problem.layout->edge_count());
+                emit(EventKind::progress, greedy.progress());
                 break;
             case GreedySearch::Outcome::complete:
                 accept_embedding();

@@ -15,7 +15,8 @@
 
 namespace layout_embedding {
 
-enum class Algorithm : std::uint32_t { greedy };
+/// How paths are chosen (search/greedy.hh). The numbers stay as they are; interfaces count on them.
+enum class Algorithm : std::uint32_t { greedy, praun, kraevoy, schreiner };
 
 /// Why a job ended.
 enum class EmbedStatus : std::uint32_t {

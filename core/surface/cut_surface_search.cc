@@ -16,6 +16,18 @@ CutSurfaceSearch::CutSurfaceSearch(const Strands& strands, DistanceFields& field
 
 void CutSurfaceSearch::begin(Index layout_edge, Length limit)
 {
+    weights_ = {};
+    start(layout_edge, limit);
+}
+
+void CutSurfaceSearch::begin_weighted(Index layout_edge, std::span<const NodeWeight> weights)
+{
+    weights_ = weights;
+    start(layout_edge, kInfiniteLength);
+}
+
+void CutSurfaceSearch::start(Index layout_edge, Length limit)
+{
     const Layout& layout = strands_.layout();
     ++search_count_;
     layout_edge_ = layout_edge;
@@ -31,8 +43,8 @@ void CutSurfaceSearch::begin(Index layout_edge, Length limit)
     tied_ = false;
     darts_.clear();
     queue_.clear();
-    field_ = &fields_.get(goal_, start_);
-    lower_bound_ = field_->bound(start_);
+    field_ = weights_.empty() ? &fields_.get(goal_, start_) : nullptr;
+    lower_bound_ = weights_.empty() ? field_->bound(start_) : 0;
     if (labels_.size() < strands_.state_bound()) {
         labels_.resize(strands_.state_bound(), Label{kInfiniteLength, kNone, 0});
     }
@@ -48,7 +60,8 @@ void CutSurfaceSearch::begin(Index layout_edge, Length limit)
         const Index strands = strands_.strand_count(start_, d);
         for (Index slot = 0; slot <= strands; ++slot) {
             if (strands_.region(start_, d, slot) == sector) {
-                relax(kNone, start_, d, slot, 0);
+                weights_.empty() ? relax<false>(kNone, start_, d, slot, 0)
+                                 : relax<true>(kNone, start_, d, slot, 0);
             }
         }
     }
@@ -73,7 +86,7 @@ CutSurfaceSearch::Outcome CutSurfaceSearch::run(std::uint64_t max_expansions)
             ++expansion_count_;
             std::pop_heap(queue_.begin(), queue_.end());
             queue_.pop_back();
-            expand(item.state);
+            weights_.empty() ? expand<false>(item.state) : expand<true>(item.state);
         } else {
             std::pop_heap(queue_.begin(), queue_.end());
             queue_.pop_back();
@@ -87,6 +100,7 @@ CutSurfaceSearch::Outcome CutSurfaceSearch::run(std::uint64_t max_expansions)
     return tied_ ? Outcome::tied : Outcome::found;
 }
 
+template <bool kWeighted>
 void CutSurfaceSearch::expand(Index state)
 {
     const PathGraph& graph = strands_.graph();
@@ -95,7 +109,7 @@ void CutSurfaceSearch::expand(Index state)
     const Index end = graph.first_dart(node + 1);
     if (!strands_.is_touched(node)) {
         for (Index d = graph.first_dart(node); d < end; ++d) {
-            relax(state, node, d, 0, distance);
+            relax<kWeighted>(state, node, d, 0, distance);
         }
         return;
     }
@@ -111,15 +125,18 @@ void CutSurfaceSearch::expand(Index state)
     for (Index d = graph.first_dart(node); d < end; ++d) {
         const Index slot = strands_.slot_in_region(node, d, region);
         if (slot != kNone) {
-            relax(state, node, d, slot, distance);
+            relax<kWeighted>(state, node, d, slot, distance);
         }
     }
 }
 
+template <bool kWeighted>
 void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slot, Length distance)
 {
     const Dart& along = strands_.graph().dart(dart);
-    const Length reached = distance + along.length;
+    const Length reached =
+        distance + (kWeighted ? weighted_length(along.length, weights_[tail], weights_[along.head])
+                              : along.length);
     const bool is_landmark = !strands_.passable()[along.head];
     if (is_landmark && along.head != goal_) {
         return;
@@ -152,7 +169,7 @@ void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slo
         }
     }
     label = {reached, dart, number_ * kFlags};
-    queue_.push_back({reached + field_->bound(along.head), state});
+    queue_.push_back({kWeighted ? reached : reached + field_->bound(along.head), state});
     std::push_heap(queue_.begin(), queue_.end());
 }
 

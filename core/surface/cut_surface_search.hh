@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/types.hh"
 #include "surface/distance_field.hh"
 #include "surface/strands.hh"
+#include "surface/weighted_length.hh"
 
 namespace layout_embedding {
 
@@ -37,11 +39,17 @@ public:
     /// search is over. Walks of length `limit` or more do not matter.
     void begin(Index layout_edge, Length limit = kInfiniteLength);
 
+    /// Likewise for the walk that is shortest in a metric of its own: see weighted_length().
+    /// `weights` has one weight per node and stays as it is until the search is over. Without a
+    /// distance field to guide it.
+    void begin_weighted(Index layout_edge, std::span<const NodeWeight> weights);
+
     /// Continues for at most `max_expansions` expansions.
     Outcome run(std::uint64_t max_expansions = UINT64_MAX);
 
     /// The walk from tail(2e) to head(2e), after `found`.
     const std::vector<Index>& darts() const { return darts_; }
+    /// Its length, in the metric of the search; kInfiniteLength if it is blocked.
     Length cost() const { return goal_distance_; }
     /// Every walk for the edge is at least this long; grows while the search runs.
     Length lower_bound() const { return lower_bound_; }
@@ -69,13 +77,17 @@ private:
         }
     };
 
+    void start(Index layout_edge, Length limit);
+    template <bool kWeighted>
     void expand(Index state);
+    template <bool kWeighted>
     void relax(Index from_state, Index tail, Index dart, Index slot, Length distance);
     void collect_walk();
 
     const Strands& strands_;
     DistanceFields& fields_;
-    const DistanceField* field_ = nullptr;
+    const DistanceField* field_ = nullptr;  // of the goal, null in weighted searches
+    std::span<const NodeWeight> weights_;   // empty in plain searches
     Index start_ = kNone;
     Index goal_ = kNone;
     Index goal_sector_ = 0;

@@ -68,6 +68,8 @@ public:
     bool is_boundary(Index node) const { return boundary_[node]; }
 
     NodeElement element(Index node) const;
+    /// Nodes that are vertices of the target; they come first.
+    Index vertex_count() const { return vertex_count_; }
     Index node_of_vertex(Index vertex) const { return vertex; }
     Index node_of_edge(Index edge) const { return vertex_count_ + edge; }
     Index node_of_face(Index face) const { return vertex_count_ + edge_count_ + face; }

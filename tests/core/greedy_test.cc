@@ -44,7 +44,7 @@ TEST(Greedy, equals_the_search_that_computes_all_paths_anew_after_every_insertio
     for (const test::Instance& instance : all_problems()) {
         SCOPED_TRACE(instance.name);
         SearchGround ground(instance.problem, 5);
-        GreedySearch greedy(ground.strands, ground.search);
+        GreedySearch greedy(instance.problem, ground.strands, ground.search);
         const Outcome outcome = run_to_end(greedy);
         ASSERT_NE(outcome, Outcome::tied);
 
@@ -74,7 +74,7 @@ TEST(Greedy, embeds_a_spanning_tree_first)
     for (const test::Instance& instance : all_problems()) {
         SCOPED_TRACE(instance.name);
         SearchGround ground(instance.problem, 6);
-        GreedySearch greedy(ground.strands, ground.search);
+        GreedySearch greedy(instance.problem, ground.strands, ground.search);
         run_to_end(greedy);
         const Layout& layout = ground.strands.layout();
         auto tree = ground.strands.insertion_order();
@@ -90,7 +90,7 @@ TEST(Greedy, always_completes_on_closed_surfaces_of_genus_0)
     for (const test::Instance& instance : test::random_instances(63, 60)) {
         SCOPED_TRACE(instance.name);
         SearchGround ground(instance.problem, 7);
-        GreedySearch greedy(ground.strands, ground.search);
+        GreedySearch greedy(instance.problem, ground.strands, ground.search);
         EXPECT_EQ(run_to_end(greedy), Outcome::complete);
     }
 }
@@ -102,7 +102,7 @@ TEST(Greedy, the_lower_bound_is_never_above_the_best_of_many_orders)
     for (const test::Instance& instance : test::random_instances(64, 25)) {
         SCOPED_TRACE(instance.name);
         SearchGround ground(instance.problem, 8);
-        GreedySearch greedy(ground.strands, ground.search);
+        GreedySearch greedy(instance.problem, ground.strands, ground.search);
         ASSERT_EQ(run_to_end(greedy), Outcome::complete);
         const Layout& layout = ground.strands.layout();
         for (int round = 0; round < 20; ++round) {
@@ -171,7 +171,7 @@ TEST(Greedy, bound_and_cost_enclose_the_best_of_all_orders)
         int order_count = 0;
         const Length best = best_of_all_orders(ground, 0, order_count);
         EXPECT_GT(order_count, 6 * 2 * 24);  // the orders that begin with a tree, at the least
-        GreedySearch greedy(ground.strands, ground.search);
+        GreedySearch greedy(problem, ground.strands, ground.search);
         ASSERT_EQ(run_to_end(greedy), Outcome::complete);
         EXPECT_LE(greedy.lower_bound(), best);
         EXPECT_GE(greedy.embedded_cost(), best);
@@ -187,11 +187,11 @@ TEST(Greedy, slices_of_work_change_nothing)
     for (const test::Instance& instance : test::random_instances(66, 10)) {
         SCOPED_TRACE(instance.name);
         SearchGround whole(instance.problem, 10);
-        GreedySearch greedy(whole.strands, whole.search);
+        GreedySearch greedy(instance.problem, whole.strands, whole.search);
         EXPECT_EQ(run_to_end(greedy), Outcome::complete);
         for (const std::uint64_t slice : {1U, 7U, 100U}) {
             SearchGround sliced(instance.problem, 10);
-            GreedySearch stepped(sliced.strands, sliced.search);
+            GreedySearch stepped(instance.problem, sliced.strands, sliced.search);
             Outcome outcome = Outcome::running;
             while (outcome == Outcome::running || outcome == Outcome::bounded ||
                    outcome == Outcome::inserted) {

@@ -23,7 +23,7 @@ using test::problem_of;
 bool embeds_validly(const EmbeddingProblem& problem, std::uint64_t seed)
 {
     test::SearchGround ground(problem, seed);
-    GreedySearch greedy(ground.strands, ground.search);
+    GreedySearch greedy(problem, ground.strands, ground.search);
     for (;;) {
         const auto outcome = greedy.run();
         const WeakEmbedding weak = ground.strands.weak_embedding();

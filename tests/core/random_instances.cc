@@ -61,7 +61,11 @@ std::vector<Triangle> random_sphere(Index count, Random& random)
 Vec3 random_direction(Random& random)
 {
     for (;;) {
-        const Vec3 p(2 * random.unit() - 1, 2 * random.unit() - 1, 2 * random.unit() - 1);
+        // One by one: compilers differ in the order in which they evaluate arguments.
+        Vec3 p;
+        for (int i = 0; i < 3; ++i) {
+            p[i] = 2 * random.unit() - 1;
+        }
         const double length = p.norm();
         if (length > 0.1 && length <= 1) {
             return p / length;
