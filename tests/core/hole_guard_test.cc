@@ -73,8 +73,10 @@ PolygonMesh uneven_disk(int size, Random& random)
     const TriangleMesh connectivity(mesh);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         if (!connectivity.is_boundary_vertex(v)) {
-            mesh.positions[v] +=
-                Vec3(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5) * 0.6 / size;
+            // One coordinate at a time: the order in which arguments are evaluated is not fixed.
+            for (double& x : mesh.positions[v]) {
+                x += (random.unit() - 0.5) * 0.6 / size;
+            }
         }
     }
     return mesh;
