@@ -47,6 +47,21 @@ describe("an embedding", () => {
         expect(result.exactCost).toBe(result.exactLowerBound);
     });
 
+    test.each(["greedy", "praun", "kraevoy", "schreiner"] as const)(
+        "by_%s_is_complete_and_has_the_bound_of_the_root_state",
+        async (algorithm) => {
+            const plain = await embed({ ...problem, landmarks: displacedLandmarks });
+            const result = await embed(
+                { ...problem, landmarks: displacedLandmarks },
+                { algorithm },
+            );
+            expect(result.edges.every((edge) => edge.chain.length > 1)).toBe(true);
+            expect(result.insertionOrder).toHaveLength(12);
+            expect(result.exactLowerBound).toBe(plain.exactLowerBound);
+            expect(result.exactCost! >= result.exactLowerBound).toBe(true);
+        },
+    );
+
     test("without_landmarks_starts_from_proximity", async () => {
         const result = await embed(problem);
         expect(Array.from(result.landmarks)).toEqual([0, 1, 2, 3, 4, 5]);

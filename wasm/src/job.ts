@@ -18,7 +18,7 @@ import type {
 } from "./types.js";
 
 // In the order of the core's enumerations (core/apps/embed_job.hh).
-const algorithms: Algorithm[] = ["greedy"];
+const algorithms: Algorithm[] = ["greedy", "praun", "kraevoy", "schreiner"];
 const statuses: (EmbedStatus | "running" | "failed")[] = [
     "running",
     "optimal",

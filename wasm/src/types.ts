@@ -100,7 +100,11 @@ export interface LandmarksInfo {
     notes: Notes;
 }
 
-export type Algorithm = "greedy";
+/**
+ * How the search goes. All four insert the layout edges one by one and differ in the order: the
+ * shortest path first (greedy), or after the heuristics of [PSS01], [KSG03, KS04] and [SAPH04].
+ */
+export type Algorithm = "greedy" | "praun" | "kraevoy" | "schreiner";
 
 /** Why a job ended. */
 export type EmbedStatus =
@@ -125,6 +129,7 @@ export type BoundScope = "embeddings" | "insertionSequences";
 export type EmbedPhase = "prepare" | "search" | "realise" | "check" | "done";
 
 export interface SolveOptions {
+    /** Default: greedy. */
     algorithm?: Algorithm;
     /** The gap to be reached, (cost - lowerBound) / cost; 0 asks for the optimum. Default 0.01. */
     gap?: number;

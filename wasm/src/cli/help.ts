@@ -12,7 +12,7 @@ Options of both
 
 Options of embed
   --output DIR         write refined.obj, refined_map.json and embedding.json there
-  --algorithm NAME     greedy (default)
+  --algorithm NAME     greedy (default), praun, kraevoy or schreiner
   --gap X              stop at this gap, (cost - lower bound) / cost (default 0.01)
   --time-limit S       stop the search after S seconds
   --work-limit N       stop the search after N node expansions; reproducible
