@@ -12,6 +12,8 @@ await main(async () => {
     });
     await ensureSystemPackages("lint", ...(values.tidy ? ["native", "tidy"] : []));
     await installPackages();
+    // The page and the tests see the package through its built types.
+    await buildPackage();
 
     const cpp = ["core", "wasm", "tests"].flatMap(filesBelow).filter((f) => /\.(hh|cc)$/.test(f));
     const tool = (name) => `node_modules/${name}`;
@@ -36,8 +38,6 @@ await main(async () => {
         await check(command, args);
     }
     if (!values.fix) {
-        // The page and the tests see the package through its built types.
-        await buildPackage();
         for (const project of ["wasm", "web", "tests"]) {
             if (existsSync(`${root}/${project}/tsconfig.json`)) {
                 say(`» tsc ${project}`);
