@@ -223,6 +223,9 @@ struct EmbedJob::Implementation {
                                 std::to_string(kMaxAttempts) + " perturbations"));
             return;
         }
+        // Bounds in the old lengths say nothing about the new ones.
+        result.exact_lower_bound = 0;
+        result.lower_bound = 0;
         earlier_attempts = result.counters;
         ++earlier_attempts.ties;
         result.counters = earlier_attempts;

@@ -89,10 +89,11 @@ EmbeddingProblem with_random_landmarks(const PolygonMesh& layout, const PolygonM
                       zoo::random_landmarks(target, layout.vertex_count(), random.bits()));
 }
 
-// The guard only detects: on a disk, an edge whose shortest path leaves the hole on its wrong side
-// never gets another path by what is inserted after it. An edge that would force it away has a
-// shortest path that meets the wrong one twice with the hole in between, and both would be shortest
-// between the two points. Such problems end without an embedding (known limitation).
+// The guard only detects: an edge whose shortest path leaves the hole on its wrong side is refused,
+// and on a disk nothing that is inserted later seems to give it another path (an edge that forced
+// it away would meet the wrong path twice, with the hole in between, and both would be shortest
+// between the two points; an argument for one hole, not a proof). Such problems end without an
+// embedding, a known limitation.
 TEST(HoleGuard, refuses_exactly_the_problems_that_end_with_a_hole_in_a_face_without_it)
 {
     Random random(71);
