@@ -14,6 +14,25 @@ const baselineFile = path.join(import.meta.dirname, "baseline.json");
 /** Seconds an instance may take in WebAssembly, from reading the files to the checked result. */
 const timeLimit = 10;
 
+const seconds = (value) => (value === undefined ? "-" : value.toFixed(2));
+const columns = [
+    ["instance", 18, ({ name }) => name],
+    ["", 6, ({ where }) => where],
+    ["status", 10, ({ status }) => status],
+    ["cost", 10, ({ cost }) => cost?.toPrecision(7) ?? "-"],
+    ["bound", 10, ({ lowerBound }) => lowerBound.toPrecision(7)],
+    ["gap", 7, ({ gap }) => `${(100 * gap).toFixed(2)}%`],
+    ["load", 6, ({ phases }) => seconds(phases.load)],
+    ["search", 6, ({ phases }) => seconds((phases.prepare ?? 0) + (phases.search ?? 0))],
+    ["real.", 6, ({ phases }) => seconds(phases.realise)],
+    ["check", 6, ({ phases }) => seconds(phases.check)],
+    ["total", 6, (result) => seconds(result.seconds)],
+    ["CPU", 6, ({ cpuSeconds }) => seconds(cpuSeconds)],
+    ["searches", 8, ({ counters }) => String(counters.searches)],
+    ["expansions", 10, ({ counters }) => String(counters.expansions)],
+    ["MB", 6, ({ peakMegabytes }) => peakMegabytes.toFixed(0)],
+];
+
 await main(async () => {
     const options = readOptions();
     const data = process.env.LAYOUT_EMBEDDING_DATA ?? path.join(root, "../shared");
@@ -160,25 +179,6 @@ function describeMachine() {
         times: "seconds by the clock for load, search, realise, check and in total; CPU seconds and peak memory (MB) of the process, for WASM with Node's own",
     };
 }
-
-const seconds = (value) => (value === undefined ? "-" : value.toFixed(2));
-const columns = [
-    ["instance", 18, ({ name }) => name],
-    ["", 6, ({ where }) => where],
-    ["status", 10, ({ status }) => status],
-    ["cost", 10, ({ cost }) => cost?.toPrecision(7) ?? "-"],
-    ["bound", 10, ({ lowerBound }) => lowerBound.toPrecision(7)],
-    ["gap", 7, ({ gap }) => `${(100 * gap).toFixed(2)}%`],
-    ["load", 6, ({ phases }) => seconds(phases.load)],
-    ["search", 6, ({ phases }) => seconds((phases.prepare ?? 0) + (phases.search ?? 0))],
-    ["real.", 6, ({ phases }) => seconds(phases.realise)],
-    ["check", 6, ({ phases }) => seconds(phases.check)],
-    ["total", 6, (result) => seconds(result.seconds)],
-    ["CPU", 6, ({ cpuSeconds }) => seconds(cpuSeconds)],
-    ["searches", 8, ({ counters }) => String(counters.searches)],
-    ["expansions", 10, ({ counters }) => String(counters.expansions)],
-    ["MB", 6, ({ peakMegabytes }) => peakMegabytes.toFixed(0)],
-];
 
 function row(cells) {
     return cells
