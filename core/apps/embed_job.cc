@@ -7,20 +7,17 @@
 #include "embedding/check_input.hh"
 #include "embedding/checker.hh"
 #include "embedding/realisation.hh"
-#include "search/greedy.hh"
-#include "surface/cut_surface_search.hh"
-#include "surface/distance_field.hh"
+#include "search/greedy_solver.hh"
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
 #include "surface/strand_checker.hh"
 #endif
-#include "surface/strands.hh"
 
 namespace layout_embedding {
 
 namespace {
 
-// Between two looks at the clock; about a millisecond.
-constexpr std::uint64_t kExpansionsPerSlice = 4096;
+// Units of work between two looks at the clock; about a millisecond.
+constexpr std::uint64_t kWorkPerSlice = 4096;
 // Distance fields beyond this are dropped and computed again.
 constexpr std::uint64_t kMaxFieldBytes = std::uint64_t{256} << 20U;
 // Perturbations drawn before a tie is reported.
@@ -29,39 +26,34 @@ constexpr std::uint32_t kMaxAttempts = 8;
 GreedyRule rule_of(Algorithm algorithm)
 {
     switch (algorithm) {
-        case Algorithm::greedy:
-            return GreedyRule::plain();
         case Algorithm::praun:
             return GreedyRule::praun();
         case Algorithm::kraevoy:
             return GreedyRule::kraevoy();
         case Algorithm::schreiner:
             return GreedyRule::schreiner();
+        default:
+            return GreedyRule::plain();
     }
-    return GreedyRule::plain();
 }
 
-/// Everything a search stands on, in the order in which it is built.
-struct Ground {
-    Ground(const EmbeddingProblem& problem, const PathGraph& graph, std::uint64_t field_bytes,
-           const GreedyRule& rule)
-        : strands(problem, graph),
-          fields(graph, strands.passable(), field_bytes),
-          search(strands, fields),
-          greedy(problem, strands, search, rule)
-    {}
-
-    static std::uint64_t estimate_bytes(std::uint64_t nodes)
-    {
-        // Labels and queue of the search, records, and one distance field.
-        return nodes * (16 + 16 + 4 + 4);
+std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathGraph& graph,
+                                    std::uint64_t field_bytes, const EmbedOptions& options)
+{
+    if (options.algorithm == Algorithm::branch_and_bound) {
+        SequenceSolverOptions sequences = options.sequences;
+        sequences.branch_and_bound.gap = options.gap;
+        return std::make_unique<SequenceSolver>(problem, graph, field_bytes, sequences);
     }
+    return std::make_unique<GreedySolver>(problem, graph, field_bytes, rule_of(options.algorithm));
+}
 
-    Strands strands;
-    DistanceFields fields;
-    CutSurfaceSearch search;
-    GreedySearch greedy;
-};
+/// Bytes that a solver takes for the nodes of the path graph: labels and queue of the search,
+/// records, and one distance field.
+std::uint64_t estimate_solver_bytes(std::uint64_t nodes)
+{
+    return nodes * (16 + 16 + 4 + 4);
+}
 
 }  // namespace
 
@@ -87,8 +79,11 @@ struct EmbedJob::Implementation {
     double cpu_seconds = 0;
     std::uint64_t field_bytes = kMaxFieldBytes;
     std::unique_ptr<PathGraph> graph;
-    std::unique_ptr<Ground> ground;
+    std::unique_ptr<Solver> solver;
     EmbedCounters earlier_attempts;
+    std::uint64_t work = 0;
+    std::uint64_t first_embedding_work = UINT64_MAX;
+    EmbedStatus final_status = EmbedStatus::running;  // once an incumbent is to be realised
 
     double seconds() const
     {
@@ -97,7 +92,7 @@ struct EmbedJob::Implementation {
 
     void emit(EventKind kind, double progress)
     {
-        events.push_back({kind, phase, seconds(), result.counters.expansions, result.cost,
+        events.push_back({kind, phase, seconds(), work, result.cost,
                           result.lower_bound, progress});
     }
 
@@ -110,7 +105,7 @@ struct EmbedJob::Implementation {
     void end(EmbedStatus status)
     {
         result.status = status;
-        ground.reset();
+        solver.reset();
         enter(EmbedPhase::done);
     }
 
@@ -120,18 +115,30 @@ struct EmbedJob::Implementation {
         end(status);
     }
 
-    void update_counters()
+    /// Ends the search: what it has found is realised and checked before the job ends.
+    void conclude(EmbedStatus reason)
     {
-        EmbedCounters& counters = result.counters;
-        counters = earlier_attempts;
-        counters.searches += ground->search.search_count();
-        counters.expansions += ground->search.expansion_count();
-        counters.field_nodes += ground->fields.settled_count();
-        counters.insertions += ground->strands.insertion_order().size();
+        if (result.exact_cost == kInfiniteLength) {
+            end(reason);
+            return;
+        }
+        final_status = reason;
+        set_lower_bound(solver->lower_bound(), solver->bound_scope());
+        result.insertion_order = solver->incumbent_order();
+        solver.reset();
+        enter(EmbedPhase::realise);
     }
 
-    void set_lower_bound(Length bound)
+    void update_counters()
     {
+        result.counters = earlier_attempts;
+        result.counters += solver->counters();
+        result.counters.work = work;
+    }
+
+    void set_lower_bound(Length bound, BoundScope scope)
+    {
+        result.bound_scope = scope;
         result.exact_lower_bound = bound;
         result.lower_bound = graph->to_units(bound);
         set_gap();
@@ -154,7 +161,7 @@ struct EmbedJob::Implementation {
         const std::uint64_t needed =
             PathGraph::estimate_bytes(target.vertex_count(), target.edge_count(),
                                       target.face_count()) +
-            Ground::estimate_bytes(nodes) +
+            estimate_solver_bytes(nodes) +
             (rule_of(options.algorithm).repulsive_guide
                  ? RepulsiveGuide::estimate_bytes(target.vertex_count(),
                                                   problem.layout->vertex_count())
@@ -169,48 +176,76 @@ struct EmbedJob::Implementation {
             return;
         }
         field_bytes = std::min(kMaxFieldBytes, options.memory_limit - needed);
-        build_ground();
+        build_solver();
         search_start = seconds();
         enter(EmbedPhase::search);
     }
 
-    void build_ground()
+    void build_solver()
     {
-        ground.reset();
+        solver.reset();
         graph = std::make_unique<PathGraph>(make_graph(*problem.target, {options.seed, attempt}));
-        ground = std::make_unique<Ground>(problem, *graph, field_bytes, rule_of(options.algorithm));
+        solver = make_solver(problem, *graph, field_bytes, options);
     }
 
-    /// Searches for a bounded number of expansions.
-    void search(std::uint64_t max_expansions)
+    std::uint64_t work_limit() const
     {
-        const std::uint64_t left = options.work_limit - result.counters.expansions;
-        GreedySearch& greedy = ground->greedy;
-        const auto outcome = greedy.run(std::min(max_expansions, left));
+        if (options.work_limit) {
+            return *options.work_limit;
+        }
+        const bool ends_by_itself = options.algorithm != Algorithm::branch_and_bound;
+        return ends_by_itself || first_embedding_work == UINT64_MAX
+                   ? UINT64_MAX
+                   : first_embedding_work + kDefaultPatience;
+    }
+
+    /// Searches for a bounded amount of work.
+    void search(std::uint64_t max_work)
+    {
+        if (work >= work_limit()) {
+            conclude(EmbedStatus::work_limit);
+            return;
+        }
+        WorkBudget budget(std::min(max_work, work_limit() - work));
+        const auto outcome = solver->run(budget);
+        work += budget.spent();
         update_counters();
         switch (outcome) {
-            case GreedySearch::Outcome::running:
-                if (result.counters.expansions >= options.work_limit) {
-                    end(EmbedStatus::work_limit);
-                }
+            case Solver::Outcome::running:
                 break;
-            case GreedySearch::Outcome::bounded:
-                set_lower_bound(greedy.lower_bound());
-                emit(EventKind::bound, 0);
+            case Solver::Outcome::bounded:
+                set_lower_bound(solver->lower_bound(), solver->bound_scope());
+                emit(EventKind::bound, solver->progress());
                 break;
-            case GreedySearch::Outcome::inserted:
-                emit(EventKind::progress, greedy.progress());
+            case Solver::Outcome::advanced:
+                emit(EventKind::progress, solver->progress());
                 break;
-            case GreedySearch::Outcome::complete:
-                accept_embedding();
+            case Solver::Outcome::improved:
+                accept_incumbent();
                 break;
-            case GreedySearch::Outcome::failed:
-                end(greedy.lower_bound() == kInfiniteLength ? EmbedStatus::infeasible
-                                                            : EmbedStatus::none_found);
+            case Solver::Outcome::finished:
+                finish_search();
                 break;
-            case GreedySearch::Outcome::tied:
+            case Solver::Outcome::tied:
                 draw_again();
                 break;
+        }
+    }
+
+    void finish_search()
+    {
+        const Length bound = solver->lower_bound();
+        const bool found = result.exact_cost != kInfiniteLength;
+        if (found) {
+            const double gap = static_cast<double>(result.exact_cost - bound) /
+                               static_cast<double>(result.exact_cost);
+            conclude(result.exact_cost == bound ? EmbedStatus::optimal
+                     : gap <= options.gap       ? EmbedStatus::gap_reached
+                                                : EmbedStatus::feasible);
+        } else {
+            end(bound == kInfiniteLength && solver->bound_scope() == BoundScope::embeddings
+                    ? EmbedStatus::infeasible
+                    : EmbedStatus::none_found);
         }
     }
 
@@ -226,42 +261,35 @@ struct EmbedJob::Implementation {
         // Bounds in the old lengths say nothing about the new ones.
         result.exact_lower_bound = 0;
         result.lower_bound = 0;
+        result.exact_cost = kInfiniteLength;
+        result.cost = std::numeric_limits<double>::infinity();
+        result.gap = 1;
+        result.weak = {};
+        first_embedding_work = UINT64_MAX;
         earlier_attempts = result.counters;
         ++earlier_attempts.ties;
         result.counters = earlier_attempts;
-        build_ground();
+        build_solver();
     }
 
-#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
-    /// Whether the present strands pass the checker that shares nothing with them.
-    bool strands_are_sound()
-    {
-        const auto violations = check_strands(problem, *graph, ground->strands.weak_embedding());
-        if (violations.empty()) {
-            return true;
-        }
-        fail(EmbedStatus::failed,
-             make_error(ErrorCode::internal, "the search went wrong (" + violations[0].code + ": " +
-                                                 violations[0].message + ")"));
-        return false;
-    }
-#endif
-
-    void accept_embedding()
+    void accept_incumbent()
     {
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
-        if (!strands_are_sound()) {
+        // Every incumbent passes the checker that shares nothing with the search.
+        const auto violations = check_strands(problem, *graph, solver->incumbent());
+        if (!violations.empty()) {
+            fail(EmbedStatus::failed,
+                 make_error(ErrorCode::internal, "the search went wrong (" + violations[0].code +
+                                                     ": " + violations[0].message + ")"));
             return;
         }
 #endif
-        result.weak = ground->strands.weak_embedding();
-        result.insertion_order = ground->strands.insertion_order();
-        result.exact_cost = ground->greedy.embedded_cost();
+        first_embedding_work = std::min(first_embedding_work, work);
+        result.weak = solver->incumbent();
+        result.exact_cost = solver->incumbent_cost();
         result.cost = graph->to_units(result.exact_cost);
         set_gap();
-        emit(EventKind::incumbent, 1);
-        ground.reset();
-        enter(EmbedPhase::realise);
+        emit(EventKind::incumbent, solver->progress());
     }
 
     void realise_embedding()
@@ -291,18 +319,13 @@ struct EmbedJob::Implementation {
                                                               report.violations[0].message + ")"));
             return;
         }
-        const bool optimal = result.exact_cost == result.exact_lower_bound;
-        end(optimal                     ? EmbedStatus::optimal
-            : result.gap <= options.gap ? EmbedStatus::gap_reached
-                                        : EmbedStatus::feasible);
+        end(final_status);
     }
 
     void step(const StepBudget& budget)
     {
         const auto slice_start = Clock::now();
-        const std::uint64_t work_end =
-            result.counters.expansions +
-            std::min(budget.work, UINT64_MAX - result.counters.expansions);
+        const std::uint64_t work_end = work + std::min(budget.work, UINT64_MAX - work);
         const auto milliseconds = [&] {
             return std::chrono::duration<double, std::milli>(Clock::now() - slice_start).count();
         };
@@ -313,12 +336,11 @@ struct EmbedJob::Implementation {
                     break;
                 case EmbedPhase::search:
                     if (cancel_requested) {
-                        end(EmbedStatus::cancelled);
+                        conclude(EmbedStatus::cancelled);
                     } else if (seconds() - search_start > options.time_limit) {
-                        end(EmbedStatus::time_limit);
+                        conclude(EmbedStatus::time_limit);
                     } else {
-                        search(
-                            std::min(kExpansionsPerSlice, work_end - result.counters.expansions));
+                        search(std::min(kWorkPerSlice, work_end - work));
                     }
                     break;
                 case EmbedPhase::realise:
@@ -330,7 +352,7 @@ struct EmbedJob::Implementation {
                 case EmbedPhase::done:
                     return;
             }
-        } while (milliseconds() < budget.milliseconds && result.counters.expansions < work_end);
+        } while (milliseconds() < budget.milliseconds && work < work_end);
     }
 };
 
@@ -408,8 +430,8 @@ Polylines EmbedJob::paths() const
         const std::vector<Index>* darts = nullptr;
         if (!job.result.weak.paths.empty()) {
             darts = &job.result.weak.paths[e].darts;
-        } else if (job.ground) {
-            darts = &job.ground->strands.darts(e);
+        } else if (job.solver) {
+            darts = &job.solver->current_path(e);
         }
         if (darts == nullptr || darts->empty()) {
             continue;

@@ -10,13 +10,17 @@
 #include "base/error.hh"
 #include "embedding/refined_mesh.hh"
 #include "layout/embedding_problem.hh"
+#include "search/sequence_solver.hh"
+#include "search/solver.hh"
 #include "surface/path_graph.hh"
 #include "surface/weak_embedding.hh"
 
 namespace layout_embedding {
 
-/// How paths are chosen (search/greedy.hh). The numbers stay as they are; interfaces count on them.
-enum class Algorithm : std::uint32_t { greedy, praun, kraevoy, schreiner };
+/// How paths are chosen: by a greedy heuristic (search/greedy.hh), or by branch and bound over
+/// insertion sequences (search/sequence_solver.hh). The numbers stay as they are; interfaces count
+/// on them.
+enum class Algorithm : std::uint32_t { greedy, praun, kraevoy, schreiner, branch_and_bound };
 
 /// Why a job ended.
 enum class EmbedStatus : std::uint32_t {
@@ -40,24 +44,27 @@ enum class EmbedStatus : std::uint32_t {
     failed,
 };
 
-/// What a lower bound bounds: every embedding, or only those that insert paths one by one.
-enum class BoundScope : std::uint32_t { embeddings, insertion_sequences };
-
 enum class EmbedPhase : std::uint32_t { prepare, search, realise, check, done };
 
 struct EmbedOptions {
-    Algorithm algorithm = Algorithm::greedy;
+    Algorithm algorithm = Algorithm::branch_and_bound;
     /// The gap to be reached, (cost - lower bound) / cost; 0 asks for the optimum.
     double gap = 0.01;
     std::uint64_t seed = 1;
     /// Wall-clock seconds for the search; infinity for none. Results under this limit depend on the
     /// machine; use work_limit for reproducible ones.
     double time_limit = std::numeric_limits<double>::infinity();
-    /// Node expansions of all searches together.
-    std::uint64_t work_limit = std::numeric_limits<std::uint64_t>::max();
+    /// Units of work for the search (WorkBudget: about node expansions). If it is not given, branch
+    /// and bound stops kDefaultPatience units after its first embedding.
+    std::optional<std::uint64_t> work_limit;
     /// Bytes the job may take, estimated before it starts.
     std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();
+    /// Switches of branch and bound for experiments; its tolerance is `gap`.
+    SequenceSolverOptions sequences;
 };
+
+/// A few seconds on the machines of today.
+inline constexpr std::uint64_t kDefaultPatience = 40'000'000;
 
 enum class EventKind : std::uint32_t {
     /// Another phase began.
@@ -76,7 +83,7 @@ struct EmbedEvent {
     EmbedPhase phase = EmbedPhase::prepare;
     /// Seconds since the job started.
     double seconds = 0;
-    /// Node expansions since the job started.
+    /// Units of work since the job started.
     std::uint64_t work = 0;
     /// In target units; infinity while there is no embedding.
     double cost = std::numeric_limits<double>::infinity();
@@ -94,16 +101,10 @@ struct Polylines {
     std::vector<Index> layout_edges;
 };
 
-/// Machine-independent counts.
-struct EmbedCounters {
-    /// Shortest-path searches in the cut surface.
-    std::uint64_t searches = 0;
-    /// States of the cut surface expanded by them; the unit of work.
-    std::uint64_t expansions = 0;
-    /// Nodes settled by the distance fields that guide them.
-    std::uint64_t field_nodes = 0;
-    /// Paths inserted into embeddings.
-    std::uint64_t insertions = 0;
+/// Machine-independent counts, of all attempts together.
+struct EmbedCounters : SearchCounters {
+    /// Units of work (WorkBudget).
+    std::uint64_t work = 0;
     /// How often a tie made the job draw new perturbations.
     std::uint64_t ties = 0;
 };
@@ -133,7 +134,7 @@ struct EmbedResult {
 /// How far one call of EmbedJob::step may go; it returns at the first limit it meets.
 struct StepBudget {
     double milliseconds = std::numeric_limits<double>::infinity();
-    /// Node expansions.
+    /// Units of work.
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();
 };
 
@@ -160,7 +161,7 @@ public:
     /// interrupted.
     bool step(const StepBudget& budget = {});
 
-    /// Ends the search at the next step(); an incumbent is still realised. Idempotent.
+    /// Ends the search at the next step(); an incumbent is still realised and checked. Idempotent.
     void cancel();
 
     const EmbeddingProblem& problem() const;

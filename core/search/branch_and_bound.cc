@@ -3,26 +3,84 @@
 #include <algorithm>
 
 #include "base/random.hh"
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+#include <cassert>
+
 #include "surface/conflicts.hh"
+#endif
 
 namespace layout_embedding {
 
+namespace {
+
+// What the evaluation of a child charges: with all answers remembered it takes about as long as
+// this many expansions.
+std::uint64_t child_work(Index edge_count)
+{
+    return 2 + edge_count / 32;
+}
+
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+/// What delayed insertion stands on (paper, Appendix A): conflicts are those that the strands
+/// themselves show, and inserting a candidate leaves every other one that does not conflict with it
+/// as it is.
+void assert_conflicts(PartialEmbedding& embedding, const std::vector<Index>& candidates,
+                      const CandidateConflicts& conflicts)
+{
+    const WalkPool& pool = embedding.pool();
+    [[maybe_unused]] const bool moved = embedding.move_strands();
+    assert(moved);
+    std::vector<CandidateWalk> walks;
+    std::vector<Index> edges;
+    for (Index e = 0; e < candidates.size(); ++e) {
+        if (embedding.walk(e) == kNone) {
+            assert(embedding.strands().trace(e, pool.darts(candidates[e])));
+            walks.push_back({e, pool.darts(candidates[e])});
+            edges.push_back(e);
+        }
+    }
+    CandidateConflicts seen;
+    const Conflicts on_strands = find_conflicts(embedding.strands(), walks);
+    for (const auto& [a, b] : on_strands.pairs) {
+        seen.pairs.emplace_back(edges[a], edges[b]);
+    }
+    for (const auto& [a, b, c] : on_strands.triples) {
+        seen.triples.push_back({edges[a], edges[b], edges[c]});
+    }
+    assert(seen.pairs == conflicts.pairs);
+    assert(seen.triples == conflicts.triples);
+    for (const Index e : edges) {
+        std::vector<Index> partners;
+        for (const auto& [a, b] : conflicts.pairs) {
+            if (a == e || b == e) {
+                partners.push_back(a == e ? b : a);
+            }
+        }
+        std::sort(partners.begin(), partners.end());
+        assert(partners == embedding.conflicting_with(e, candidates));
+    }
+}
+#endif
+
+}  // namespace
+
 BranchAndBound::BranchAndBound(PartialEmbedding& embedding, PathOracle& oracle,
-                               const BranchAndBoundOptions& options)
+                               Incumbent& incumbent, const BranchAndBoundOptions& options)
     : embedding_(embedding),
       oracle_(oracle),
+      incumbent_(incumbent),
       options_(options),
-      edge_count_(embedding.strands().layout().edge_count()),
+      edge_count_(embedding.layout().edge_count()),
       candidates_(edge_count_, kNone)
 {}
 
 Length BranchAndBound::prune_threshold() const
 {
-    if (incumbent_cost_ == kInfiniteLength) {
+    if (!incumbent_.exists()) {
         return kInfiniteLength;
     }
-    return incumbent_cost_ -
-           static_cast<Length>(options_.gap * static_cast<double>(incumbent_cost_));
+    return incumbent_.cost() -
+           static_cast<Length>(options_.gap * static_cast<double>(incumbent_.cost()));
 }
 
 Length BranchAndBound::lower_bound() const
@@ -30,10 +88,10 @@ Length BranchAndBound::lower_bound() const
     if (next_root_ < edge_count_) {
         return 0;
     }
-    if (nodes_.empty() && incumbent_.empty()) {
+    if (nodes_.empty() && !incumbent_.exists()) {
         return root_bound_;
     }
-    Length bound = std::min(pruned_bound_, incumbent_cost_);
+    Length bound = std::min(pruned_bound_, incumbent_.cost());
     if (!open_bounds_.empty()) {
         bound = std::min(bound, open_bounds_.begin()->first);
     }
@@ -43,19 +101,19 @@ Length BranchAndBound::lower_bound() const
     return std::max(bound, root_bound_);
 }
 
-bool BranchAndBound::offer(const std::vector<Index>& walks, Length cost)
+bool BranchAndBound::bound_has_risen()
 {
-    if (cost >= incumbent_cost_) {
+    const Length bound = lower_bound();
+    if (bound == kInfiniteLength || bound < told_bound_ + told_bound_ / 1000 + 1) {
         return false;
     }
-    incumbent_ = walks;
-    incumbent_cost_ = cost;
+    told_bound_ = bound;
     return true;
 }
 
 void BranchAndBound::drop(Length bound)
 {
-    ++(bound == kInfiniteLength ? counters_.dead_ends : counters_.pruned);
+    ++(bound == kInfiniteLength ? counters_.dead_ends : counters_.states_pruned);
     pruned_bound_ = std::min(pruned_bound_, bound);
 }
 
@@ -87,37 +145,27 @@ bool BranchAndBound::is_redundant(std::uint64_t hash, Index walk)
 }
 
 /// The edges to branch on in the present state; none if it is a solution.
-std::vector<Index> BranchAndBound::find_branches(std::size_t& conflict_count) const
+std::vector<Index> BranchAndBound::find_branches(std::size_t& conflict_count)
 {
-    std::vector<CandidateWalk> candidates;
+    const CandidateConflicts conflicts = embedding_.conflicts(candidates_);
+#ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
+    assert_conflicts(embedding_, candidates_, conflicts);
+#endif
+    std::vector<Index> conflicting = conflicts.edges();
+    conflict_count = conflicting.size();
+    if (options_.delay_non_conflicting) {
+        return conflicting;
+    }
     std::vector<Index> open;
     for (Index e = 0; e < edge_count_; ++e) {
         if (embedding_.walk(e) == kNone) {
-            candidates.push_back({e, embedding_.pool().darts(candidates_[e])});
             open.push_back(e);
         }
     }
-    const Conflicts conflicts = find_conflicts(embedding_.strands(), candidates);
-    std::vector<bool> is_conflicting(open.size(), false);
-    for (const auto& [a, b] : conflicts.pairs) {
-        is_conflicting[a] = is_conflicting[b] = true;
-    }
-    for (const auto& triple : conflicts.triples) {
-        for (const Index c : triple) {
-            is_conflicting[c] = true;
-        }
-    }
-    std::vector<Index> conflicting;
-    for (std::size_t i = 0; i < open.size(); ++i) {
-        if (is_conflicting[i]) {
-            conflicting.push_back(open[i]);
-        }
-    }
-    conflict_count = conflicting.size();
-    return options_.delay_non_conflicting ? conflicting : open;
+    return open;
 }
 
-BranchAndBound::Outcome BranchAndBound::run(std::uint64_t budget)
+BranchAndBound::Outcome BranchAndBound::find_root(WorkBudget& budget)
 {
     while (next_root_ < edge_count_) {
         const auto answer = oracle_.find(next_root_, kInfiniteLength, budget);
@@ -137,24 +185,31 @@ BranchAndBound::Outcome BranchAndBound::run(std::uint64_t budget)
                 finished_ = true;
                 return Outcome::finished;
         }
-        if (++next_root_ == edge_count_) {
-            return Outcome::bounded;
-        }
+        ++next_root_;
+    }
+    // The root state; it is the solution already if no candidates conflict.
+    child_ = {};
+    child_.bound = root_bound_;
+    child_.updates = candidates_;
+    told_bound_ = root_bound_;
+    return Outcome::bounded;
+}
+
+BranchAndBound::Outcome BranchAndBound::run(WorkBudget& budget)
+{
+    if (next_root_ < edge_count_) {
+        return find_root(budget);
     }
     if (nodes_.empty() && !finished_) {
-        // The root state; it is the solution already if no candidates conflict.
-        child_.bound = root_bound_;
-        child_.updates = candidates_;
-        if (add_state(kNone, 0) == Outcome::improved) {
-            return Outcome::improved;
+        const Outcome outcome = add_state(kNone, 0);
+        if (outcome != Outcome::finished) {
+            return outcome;
         }
     }
     while (!finished_) {
-        if (current_ == kNone) {
-            if (!take_node()) {
-                finished_ = true;
-                break;
-            }
+        if (current_ == kNone && !take_node()) {
+            finished_ = true;
+            break;
         }
         while (next_branch_ < branches_.size()) {
             const Outcome outcome = evaluate_child(budget);
@@ -163,6 +218,9 @@ BranchAndBound::Outcome BranchAndBound::run(std::uint64_t budget)
             }
         }
         current_ = kNone;
+        if (bound_has_risen()) {
+            return Outcome::bounded;
+        }
     }
     return Outcome::finished;
 }
@@ -182,7 +240,7 @@ bool BranchAndBound::take_node()
             drop(nodes_[node].bound);
             continue;
         }
-        ++counters_.expanded;
+        ++counters_.states_expanded;
         current_ = node;
         embedding_.go_to(sequence(node));
         // Candidates: the latest update of every edge on the way up to the root.
@@ -195,6 +253,12 @@ bool BranchAndBound::take_node()
                 }
             }
         }
+        candidate_bound_ = embedding_.cost();
+        for (Index e = 0; e < edge_count_; ++e) {
+            if (embedding_.walk(e) == kNone) {
+                candidate_bound_ += embedding_.pool().cost(candidates_[e]);
+            }
+        }
         std::size_t conflict_count = 0;
         branches_ = find_branches(conflict_count);
         next_branch_ = 0;
@@ -204,15 +268,14 @@ bool BranchAndBound::take_node()
 }
 
 /// Evaluates the next child of the current node: `finished` if that is done.
-BranchAndBound::Outcome BranchAndBound::evaluate_child(std::uint64_t& budget)
+BranchAndBound::Outcome BranchAndBound::evaluate_child(WorkBudget& budget)
 {
     const Index edge = branches_[next_branch_];
     if (!in_child_) {
-        // Remembered answers cost no expansions, but the work of tracing all candidates.
-        if (budget < edge_count_) {
+        if (budget.is_spent()) {
             return Outcome::running;
         }
-        budget -= edge_count_;
+        budget.charge(child_work(edge_count_));
         begin_child(edge);
         if (!in_child_) {
             return Outcome::finished;
@@ -256,10 +319,11 @@ void BranchAndBound::begin_child(Index edge)
     const Index walk = candidates_[edge];
     const std::uint64_t hash = nodes_[current_].hash + Random::mix(walk + 1);
     if (options_.detect_redundant_states && is_redundant(hash, walk)) {
-        ++counters_.redundant;
+        ++counters_.states_redundant;
         ++next_branch_;
         return;
     }
+    std::vector<Index> open = embedding_.conflicting_with(edge, candidates_);
     if (!embedding_.insert(walk)) {
         // A hole would get into the wrong face, and stay there.
         drop(kInfiniteLength);
@@ -267,24 +331,19 @@ void BranchAndBound::begin_child(Index edge)
         return;
     }
     child_ = {};
-    child_.bound = embedding_.cost();
-    for (Index e = 0; e < edge_count_; ++e) {
-        if (embedding_.walk(e) != kNone) {
-            continue;
-        }
-        Length bound = embedding_.pool().cost(candidates_[e]);
-        if (!embedding_.traces(candidates_[e])) {
-            bound = std::max(bound, oracle_.known_bound(e));
-            child_.open.push_back(e);
-        }
+    child_.bound = candidate_bound_;
+    for (const Index e : open) {
+        const Length candidate = embedding_.pool().cost(candidates_[e]);
+        const Length bound = std::max(candidate, oracle_.known_bound(e));
         if (bound == kInfiniteLength) {
             drop(kInfiniteLength);
             embedding_.undo();
             ++next_branch_;
             return;
         }
-        child_.bound += bound;
+        child_.bound += bound - candidate;
     }
+    child_.open = std::move(open);
     if (options_.candidate_bounds && child_.bound >= prune_threshold()) {
         drop(child_.bound);
         embedding_.undo();
@@ -333,7 +392,7 @@ BranchAndBound::Outcome BranchAndBound::add_state(Index walk, std::uint64_t hash
     queue_.push_back({priority, id});
     std::push_heap(queue_.begin(), queue_.end());
     open_bounds_.emplace(bound, id);
-    ++counters_.created;
+    ++counters_.states_created;
     return Outcome::finished;
 }
 
@@ -345,14 +404,19 @@ BranchAndBound::Outcome BranchAndBound::accept_candidates()
     for (Index e = 0; e < edge_count_ && fits; ++e) {
         fits = embedding_.walk(e) != kNone || embedding_.insert(candidates_[e]);
     }
-    Outcome outcome = Outcome::finished;
-    if (fits && offer(embedding_.sequence(), embedding_.cost())) {
-        outcome = Outcome::improved;
-    }
+    const auto outcome = fits ? incumbent_.offer(embedding_) : Incumbent::Outcome::rejected;
     while (embedding_.sequence().size() > depth) {
         embedding_.undo();
     }
-    return outcome;
+    switch (outcome) {
+        case Incumbent::Outcome::accepted:
+            return Outcome::improved;
+        case Incumbent::Outcome::tied:
+            return Outcome::tied;
+        case Incumbent::Outcome::rejected:
+            break;
+    }
+    return Outcome::finished;
 }
 
 void BranchAndBound::end_child()

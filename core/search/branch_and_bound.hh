@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "base/types.hh"
+#include "search/incumbent.hh"
 #include "search/partial_embedding.hh"
 #include "search/path_oracle.hh"
+#include "search/solver.hh"
+#include "search/work_budget.hh"
 
 namespace layout_embedding {
 
@@ -33,9 +36,10 @@ class BranchAndBound {
 public:
     enum class Outcome {
         running,
-        /// lower_bound() of the root state is known: it bounds every embedding.
+        /// lower_bound() has risen: to that of the root state, which bounds every embedding, or by
+        /// a thousandth since it was last told.
         bounded,
-        /// incumbent() has improved.
+        /// The incumbent has improved.
         improved,
         /// Nothing is left to be explored, or the gap is reached.
         finished,
@@ -43,35 +47,20 @@ public:
         tied,
     };
 
-    struct Counters {
-        std::uint64_t created = 0;    // states given to the queue
-        std::uint64_t expanded = 0;   // states taken from it and branched
-        std::uint64_t pruned = 0;     // states dropped by their bound
-        std::uint64_t redundant = 0;  // states met before
-        std::uint64_t dead_ends = 0;  // states in which an edge has no path left
-    };
-
-    /// Keeps references; `embedding` is empty.
-    BranchAndBound(PartialEmbedding& embedding, PathOracle& oracle,
+    /// Keeps references; `embedding` is empty. The incumbent may be given one by others at any
+    /// time.
+    BranchAndBound(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
                    const BranchAndBoundOptions& options);
 
-    /// Continues for at most `budget` units of work: node expansions, and one per layout edge for
-    /// every state that is evaluated. At least as many as there are layout edges, or nothing is
-    /// done.
-    Outcome run(std::uint64_t budget = UINT64_MAX);
-
-    /// Takes a complete embedding found elsewhere, given as walks in an order in which they can be
-    /// inserted, as the incumbent if it is better.
-    bool offer(const std::vector<Index>& walks, Length cost);
+    /// Continues until something happens or the budget is spent.
+    Outcome run(WorkBudget& budget);
 
     /// The cost of every embedding that insertion sequences reach is at least this.
     Length lower_bound() const;
-    /// The sum of the unconstrained paths: bounds all embeddings.
-    Length root_bound() const { return root_bound_; }
-    /// Walks in order of insertion, empty without an incumbent.
-    const std::vector<Index>& incumbent() const { return incumbent_; }
-    Length incumbent_cost() const { return incumbent_cost_; }
-    const Counters& counters() const { return counters_; }
+    /// The sum of the unconstrained paths: bounds all embeddings. 0 while it is not known.
+    Length root_bound() const { return next_root_ < edge_count_ ? 0 : root_bound_; }
+    /// The counts of states; the others are 0.
+    const SearchCounters& counters() const { return counters_; }
 
 private:
     /// A state of the search: its parent's, and one walk more.
@@ -93,14 +82,14 @@ private:
     /// The child that is being evaluated.
     struct Child {
         Length bound = 0;
-        std::vector<Index> open;  // edges whose candidate has to be found again
+        std::vector<Index> open;  // edges whose candidate does not fit any more
         std::size_t next = 0;
         std::vector<Index> updates;
     };
 
-    Outcome find_root();
+    Outcome find_root(WorkBudget& budget);
     bool take_node();
-    Outcome evaluate_child(std::uint64_t& budget);
+    Outcome evaluate_child(WorkBudget& budget);
     void begin_child(Index edge);
     Outcome finish_child(Index edge);
     void drop(Length bound);
@@ -108,12 +97,14 @@ private:
     Length prune_threshold() const;
     Outcome add_state(Index walk, std::uint64_t hash);
     Outcome accept_candidates();
-    std::vector<Index> find_branches(std::size_t& conflict_count) const;
+    std::vector<Index> find_branches(std::size_t& conflict_count);
+    bool bound_has_risen();
     std::vector<Index> sequence(Index node) const;
     bool is_redundant(std::uint64_t hash, Index walk);
 
     PartialEmbedding& embedding_;
     PathOracle& oracle_;
+    Incumbent& incumbent_;
     BranchAndBoundOptions options_;
     Index edge_count_;
     Index next_root_ = 0;
@@ -127,15 +118,15 @@ private:
     Length pruned_bound_ = kInfiniteLength;
 
     Index current_ = kNone;          // node being expanded
+    Length candidate_bound_ = 0;     // of the current node: embedded paths and candidates
     std::vector<Index> candidates_;  // walk per layout edge, of the current node or child
     std::vector<Index> branches_;    // edges to insert, and the next of them
     std::size_t next_branch_ = 0;
     bool in_child_ = false;
     Child child_;
 
-    std::vector<Index> incumbent_;
-    Length incumbent_cost_ = kInfiniteLength;
-    Counters counters_;
+    Length told_bound_ = 0;
+    SearchCounters counters_;
 };
 
 }  // namespace layout_embedding

@@ -84,6 +84,11 @@ public:
     Length lower_bound() const { return lower_bound_; }
     /// Whether lower_bound() has all edges in it.
     bool has_root_bound() const { return next_root_ == edge_count_; }
+    /// After `bounded`: the unconstrained path of a layout edge.
+    const std::vector<Index>& candidate(Index layout_edge) const
+    {
+        return (plain_.empty() ? candidates_ : plain_)[layout_edge].darts;
+    }
     /// The length of the embedded paths.
     Length embedded_cost() const { return embedded_cost_; }
     /// Share of the insertions that are done, in [0, 1].

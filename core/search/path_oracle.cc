@@ -7,8 +7,8 @@ namespace layout_embedding {
 PathOracle::PathOracle(PartialEmbedding& embedding, CutSurfaceSearch& search, bool remember)
     : embedding_(embedding),
       search_(search),
-      remember_(remember),
-      explanations_(embedding.strands().layout().edge_count())
+      remembers_(remember),
+      explanations_(embedding.layout().edge_count())
 {}
 
 bool PathOracle::applies(const Explanation& explanation) const
@@ -22,20 +22,17 @@ PathOracle::Answer PathOracle::recall(Index layout_edge, Length limit) const
 {
     Answer best;
     for (const Explanation& explanation : explanations_[layout_edge]) {
-        if (explanation.bound < best.bound || !applies(explanation)) {
-            continue;
-        }
-        // Of equal bounds, the one that has a walk.
-        if (explanation.bound > best.bound || best.walk == kNone) {
+        if (applies(explanation)) {
             best.bound = explanation.bound;
             best.walk = explanation.walk;
+            break;
         }
     }
     if (best.bound == kInfiniteLength) {
         best.outcome = Outcome::blocked;
     } else if (best.bound >= limit) {
         best.outcome = Outcome::exceeded;
-    } else if (best.walk != kNone && embedding_.traces(best.walk)) {
+    } else if (best.walk != kNone && embedding_.fits(best.walk)) {
         best.outcome = Outcome::found;
     }
     return best;
@@ -43,31 +40,55 @@ PathOracle::Answer PathOracle::recall(Index layout_edge, Length limit) const
 
 Length PathOracle::known_bound(Index layout_edge) const
 {
-    Length bound = 0;
     for (const Explanation& explanation : explanations_[layout_edge]) {
-        if (explanation.bound > bound && applies(explanation)) {
-            bound = explanation.bound;
+        if (applies(explanation)) {
+            return explanation.bound;
         }
     }
-    return bound;
+    return 0;
 }
 
-PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, std::uint64_t& budget)
+void PathOracle::learn_unconstrained(Index walk)
+{
+    const WalkPool& pool = embedding_.pool();
+    explanations_[pool.layout_edge(walk)].push_back({pool.cost(walk), walk, {}});
+}
+
+void PathOracle::remember(Index layout_edge, const Answer& answer)
+{
+    std::vector<Index> blockers = search_.blockers();
+    for (Index& blocker : blockers) {
+        blocker = embedding_.walk(blocker);
+    }
+    auto& explanations = explanations_[layout_edge];
+    const auto comes_before = [](const Explanation& a, const Explanation& b) {
+        return a.bound != b.bound ? a.bound > b.bound : a.walk < b.walk;
+    };
+    Explanation explanation{answer.bound, answer.walk, std::move(blockers)};
+    explanations.insert(
+        std::upper_bound(explanations.begin(), explanations.end(), explanation, comes_before),
+        std::move(explanation));
+}
+
+PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, WorkBudget& budget)
 {
     if (searching_ == kNone) {
-        if (remember_) {
+        if (remembers_) {
             const Answer answer = recall(layout_edge, limit);
             if (answer.outcome != Outcome::running) {
                 ++remembered_count_;
                 return answer;
             }
         }
+        if (!embedding_.move_strands()) {
+            return {Outcome::tied, kNone, 0};
+        }
         searching_ = layout_edge;
         search_.begin(layout_edge, limit);
     }
     const std::uint64_t before = search_.expansion_count();
-    const auto outcome = search_.run(budget);
-    budget -= search_.expansion_count() - before;
+    const auto outcome = search_.run(budget.left());
+    budget.charge(search_.expansion_count() - before);
     Answer answer;
     answer.bound = search_.lower_bound();
     switch (outcome) {
@@ -88,12 +109,8 @@ PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, std::uint64
             break;
     }
     searching_ = kNone;
-    if (remember_ && answer.outcome != Outcome::tied) {
-        std::vector<Index> blockers = search_.blockers();
-        for (Index& blocker : blockers) {
-            blocker = embedding_.walk(blocker);
-        }
-        explanations_[layout_edge].push_back({answer.bound, answer.walk, std::move(blockers)});
+    if (remembers_ && answer.outcome != Outcome::tied) {
+        remember(layout_edge, answer);
     }
     return answer;
 }

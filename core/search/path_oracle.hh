@@ -5,6 +5,7 @@
 
 #include "base/types.hh"
 #include "search/partial_embedding.hh"
+#include "search/work_budget.hh"
 #include "surface/cut_surface_search.hh"
 
 namespace layout_embedding {
@@ -37,13 +38,15 @@ public:
     PathOracle(PartialEmbedding& embedding, CutSurfaceSearch& search, bool remember = true);
 
     /// The shortest path of an edge that is not embedded, in the present state. Paths of length
-    /// `limit` or more do not matter. `budget`: node expansions that may still be spent, reduced by
-    /// those that were.
-    Answer find(Index layout_edge, Length limit, std::uint64_t& budget);
+    /// `limit` or more do not matter. Charges the budget for the states it expands.
+    Answer find(Index layout_edge, Length limit, WorkBudget& budget);
 
     /// The best lower bound on the paths of an edge in the present state that is known without a
     /// search.
     Length known_bound(Index layout_edge) const;
+
+    /// Takes note of an edge's shortest path with nothing embedded.
+    void learn_unconstrained(Index walk);
 
     /// Questions answered without a search.
     std::uint64_t remembered_count() const { return remembered_count_; }
@@ -55,13 +58,15 @@ private:
         std::vector<Index> blockers;  // walks
     };
     bool applies(const Explanation& explanation) const;
+    void remember(Index layout_edge, const Answer& answer);
     Answer recall(Index layout_edge, Length limit) const;
 
     PartialEmbedding& embedding_;
     CutSurfaceSearch& search_;
-    bool remember_;
+    bool remembers_;
     Index searching_ = kNone;
-    std::vector<std::vector<Explanation>> explanations_;  // per layout edge
+    /// Per layout edge: the largest bound first, of equal ones those with a walk.
+    std::vector<std::vector<Explanation>> explanations_;
     std::uint64_t remembered_count_ = 0;
 };
 

@@ -97,7 +97,9 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
         options.gap = gap;
         options.seed = seed;
         options.time_limit = time_limit;
-        options.work_limit = work_limit;
+        if (work_limit != UINT64_MAX) {
+            options.work_limit = work_limit;
+        }
         options.memory_limit = memory_limit < static_cast<double>(kAddressableBytes)
                                    ? static_cast<std::uint64_t>(std::max(0.0, memory_limit))
                                    : kAddressableBytes;
@@ -106,7 +108,7 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
     });
 }
 
-/// Works for at most so many milliseconds and node expansions: 1 while there is more to do, 0 once
+/// Works for at most so many milliseconds and units of work: 1 while there is more to do, 0 once
 /// the job has ended, kFailed where it could not be stepped.
 BOUNDARY_EXPORT(boundary_job_step)
 std::int32_t boundary_job_step(std::uint32_t job, double milliseconds, std::uint64_t work)
@@ -143,20 +145,25 @@ std::uint32_t boundary_job_events(std::uint32_t job, std::uint32_t first)
     });
 }
 
-/// Views the state as 12 doubles: status, bound scope, cost, lower bound, gap, seconds, CPU
-/// seconds, searches, expansions, field nodes, insertions, ties.
+/// Views the state as 19 doubles: status, bound scope, cost, lower bound, gap, seconds, CPU
+/// seconds, work, searches, expansions, field nodes, insertions, remembered answers, states created,
+/// expanded, pruned and redundant, dead ends, ties.
 BOUNDARY_EXPORT(boundary_job_state) std::uint32_t boundary_job_state(std::uint32_t job)
 {
     return guarded(0U, [&] {
         const EmbedResult& result = job_object(job).job.result();
+        const EmbedCounters& counters = result.counters;
         set_owned_view(std::vector<double>{
             static_cast<double>(result.status), static_cast<double>(result.bound_scope),
             result.cost, result.lower_bound, result.gap, result.seconds, result.cpu_seconds,
-            static_cast<double>(result.counters.searches),
-            static_cast<double>(result.counters.expansions),
-            static_cast<double>(result.counters.field_nodes),
-            static_cast<double>(result.counters.insertions),
-            static_cast<double>(result.counters.ties)});
+            static_cast<double>(counters.work), static_cast<double>(counters.searches),
+            static_cast<double>(counters.expansions), static_cast<double>(counters.field_nodes),
+            static_cast<double>(counters.insertions), static_cast<double>(counters.remembered),
+            static_cast<double>(counters.states_created),
+            static_cast<double>(counters.states_expanded),
+            static_cast<double>(counters.states_pruned),
+            static_cast<double>(counters.states_redundant),
+            static_cast<double>(counters.dead_ends), static_cast<double>(counters.ties)});
         return 1U;
     });
 }

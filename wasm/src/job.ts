@@ -18,7 +18,7 @@ import type {
 } from "./types.js";
 
 // In the order of the core's enumerations (core/apps/embed_job.hh).
-const algorithms: Algorithm[] = ["greedy", "praun", "kraevoy", "schreiner"];
+const algorithms: Algorithm[] = ["greedy", "praun", "kraevoy", "schreiner", "branch-and-bound"];
 const statuses: (EmbedStatus | "running" | "failed")[] = [
     "running",
     "optimal",
@@ -56,7 +56,7 @@ export interface JobOptions {
 /** Checks options; throws invalidOption. */
 export function jobOptions(options: SolveOptions): JobOptions {
     const checked: JobOptions = {
-        algorithm: options.algorithm ?? "greedy",
+        algorithm: options.algorithm ?? "branch-and-bound",
         gap: options.gap ?? 0.01,
         timeLimit: options.timeLimit ?? Infinity,
         workLimit: options.workLimit ?? Infinity,
@@ -174,11 +174,18 @@ export function readResult(
         insertionOrder,
         events: readEvents(core, job, 0),
         counters: {
-            searches: counts[0] ?? 0,
-            expansions: counts[1] ?? 0,
-            fieldNodes: counts[2] ?? 0,
-            insertions: counts[3] ?? 0,
-            ties: counts[4] ?? 0,
+            work: counts[0] ?? 0,
+            searches: counts[1] ?? 0,
+            expansions: counts[2] ?? 0,
+            fieldNodes: counts[3] ?? 0,
+            insertions: counts[4] ?? 0,
+            remembered: counts[5] ?? 0,
+            statesCreated: counts[6] ?? 0,
+            statesExpanded: counts[7] ?? 0,
+            statesPruned: counts[8] ?? 0,
+            statesRedundant: counts[9] ?? 0,
+            deadEnds: counts[10] ?? 0,
+            ties: counts[11] ?? 0,
         },
         seconds: seconds ?? 0,
         cpuSeconds: cpuSeconds ?? 0,

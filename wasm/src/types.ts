@@ -101,10 +101,11 @@ export interface LandmarksInfo {
 }
 
 /**
- * How the search goes. All four insert the layout edges one by one and differ in the order: the
- * shortest path first (greedy), or after the heuristics of [PSS01], [KSG03, KS04] and [SAPH04].
+ * How the search goes. Four heuristics insert the layout edges one by one and differ in the order:
+ * the shortest path first (greedy), or after [PSS01] (praun), [KSG03, KS04] (kraevoy) and [SAPH04]
+ * (schreiner). Branch and bound looks for the best of all orders, and proves how good it is.
  */
-export type Algorithm = "greedy" | "praun" | "kraevoy" | "schreiner";
+export type Algorithm = "greedy" | "praun" | "kraevoy" | "schreiner" | "branch-and-bound";
 
 /** Why a job ended. */
 export type EmbedStatus =
@@ -129,13 +130,17 @@ export type BoundScope = "embeddings" | "insertionSequences";
 export type EmbedPhase = "prepare" | "search" | "realise" | "check" | "done";
 
 export interface SolveOptions {
-    /** Default: greedy. */
+    /** Default: branch-and-bound. */
     algorithm?: Algorithm;
     /** The gap to be reached, (cost - lowerBound) / cost; 0 asks for the optimum. Default 0.01. */
     gap?: number;
     /** Seconds for the search; results then depend on the machine. Default: no limit. */
     timeLimit?: number;
-    /** Node expansions of all searches together; reproducible. Default: no limit. */
+    /**
+     * Units of work for the search, each about the expansion of a node; reproducible. Default: none
+     * for the heuristics; branch and bound stops 40 million units after its first embedding, a few
+     * seconds. Infinity counts as not given.
+     */
     workLimit?: number;
     /** Bytes the job may take, estimated before it starts. Default: what WebAssembly can address. */
     memoryLimit?: number;
@@ -171,7 +176,7 @@ export interface EmbedProgress {
     /** Share of the phase that is done, in [0, 1]. */
     progress: number;
     seconds: number;
-    /** Node expansions so far. */
+    /** Units of work so far. */
     work: number;
     /** Infinity while there is no embedding. */
     cost: number;
@@ -195,14 +200,28 @@ export interface EmbedEvent {
 
 /** Machine-independent counts. */
 export interface EmbedCounters {
+    /** Units of work: expansions, and what other operations count as. */
+    work: number;
     /** Shortest-path searches in the cut surface. */
     searches: number;
-    /** States of the cut surface expanded by them; the unit of work. */
+    /** States of the cut surface expanded by them. */
     expansions: number;
     /** Nodes settled by the distance fields that guide them. */
     fieldNodes: number;
     /** Paths inserted into embeddings. */
     insertions: number;
+    /** Questions for a shortest path answered without a search. */
+    remembered: number;
+    /** States of branch and bound that were put into its queue. */
+    statesCreated: number;
+    /** States taken from the queue and branched. */
+    statesExpanded: number;
+    /** States dropped by their bound. */
+    statesPruned: number;
+    /** States that had been met before. */
+    statesRedundant: number;
+    /** States in which some edge has no path left. */
+    deadEnds: number;
     /** How often a tie made the job draw new perturbations. */
     ties: number;
 }

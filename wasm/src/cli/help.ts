@@ -12,10 +12,11 @@ Options of both
 
 Options of embed
   --output DIR         write refined.obj, refined_map.json and embedding.json there
-  --algorithm NAME     greedy (default), praun, kraevoy or schreiner
+  --algorithm NAME     branch-and-bound (default), greedy, praun, kraevoy or schreiner
   --gap X              stop at this gap, (cost - lower bound) / cost (default 0.01)
   --time-limit S       stop the search after S seconds
-  --work-limit N       stop the search after N node expansions; reproducible
+  --work-limit N       stop the search after N units of work (about node expansions);
+                       reproducible
   --memory-limit MB    refuse what would need more memory
   --seed N             seed of the tie-breaking perturbation (default 1)
   --quiet              print nothing but errors

@@ -1,0 +1,193 @@
+#include "search/local_search.hh"
+
+#include <algorithm>
+
+namespace layout_embedding {
+
+namespace {
+
+// Random restarts in a row that bring nothing.
+constexpr Index kMaxKicks = 12;
+// Edges that a restart moves.
+constexpr int kKickMoves = 3;
+// What inserting one path of a trial charges, in expansions.
+constexpr std::uint64_t kInsertionWork = 4;
+
+}  // namespace
+
+LocalSearch::LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
+                         std::vector<Index> root_walks)
+    : embedding_(embedding),
+      oracle_(oracle),
+      incumbent_(incumbent),
+      root_walks_(std::move(root_walks)),
+      current_(incumbent.walks()),
+      current_cost_(incumbent.cost())
+{
+    find_moves();
+}
+
+/// Whether an embedded walk could keep another edge from taking its unconstrained path.
+bool LocalSearch::in_the_way(Index walk, Index root_walk) const
+{
+    const WalkPool& pool = embedding_.pool();
+    const Layout& layout = embedding_.layout();
+    if (pool.cross(walk, root_walk)) {
+        return true;
+    }
+    const Index a = pool.layout_edge(walk);
+    const Index b = pool.layout_edge(root_walk);
+    for (const Index h : {2 * a, 2 * a + 1}) {
+        for (const Index g : {2 * b, 2 * b + 1}) {
+            if (layout.tail(h) == layout.tail(g)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void LocalSearch::find_moves()
+{
+    const WalkPool& pool = embedding_.pool();
+    struct Rated {
+        Length excess;
+        Index place;
+    };
+    std::vector<Rated> rated;
+    for (Index i = 0; i < current_.size(); ++i) {
+        const Index root = root_walks_[pool.layout_edge(current_[i])];
+        if (current_[i] != root) {
+            rated.push_back({pool.cost(current_[i]) - pool.cost(root), i});
+        }
+    }
+    std::sort(rated.begin(), rated.end(), [](const Rated& a, const Rated& b) {
+        return a.excess != b.excess ? a.excess > b.excess : a.place < b.place;
+    });
+    moves_.clear();
+    next_move_ = 0;
+    for (const Rated& edge : rated) {
+        const Index root = root_walks_[pool.layout_edge(current_[edge.place])];
+        for (Index i = 0; i < edge.place; ++i) {
+            if (in_the_way(current_[i], root)) {
+                moves_.push_back({edge.place, i});
+            }
+        }
+    }
+}
+
+void LocalSearch::begin_trial(const Move& move)
+{
+    const WalkPool& pool = embedding_.pool();
+    trial_.clear();
+    for (const Index walk : current_) {
+        trial_.push_back(pool.layout_edge(walk));
+    }
+    std::rotate(trial_.begin() + move.to, trial_.begin() + move.from,
+                trial_.begin() + move.from + 1);
+    trial_next_ = move.to;
+    trial_limit_ = current_cost_;
+    in_trial_ = true;
+    is_kick_ = false;
+}
+
+bool LocalSearch::begin_kick()
+{
+    if (kicks_ == kMaxKicks || current_.size() < 3) {
+        return false;
+    }
+    ++kicks_;
+    current_ = incumbent_.walks();
+    begin_trial({0, 0});
+    for (int i = 0; i < kKickMoves; ++i) {
+        const Index from = static_cast<Index>(random_.below(trial_.size()));
+        const Index to = static_cast<Index>(random_.below(from + 1));
+        std::rotate(trial_.begin() + to, trial_.begin() + from, trial_.begin() + from + 1);
+    }
+    trial_next_ = 0;
+    trial_limit_ = kInfiniteLength;
+    is_kick_ = true;
+    return true;
+}
+
+LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
+{
+    for (;;) {
+        if (!in_trial_) {
+            if (next_move_ < moves_.size()) {
+                begin_trial(moves_[next_move_++]);
+            } else if (!begin_kick()) {
+                return Outcome::finished;
+            }
+            const WalkPool& pool = embedding_.pool();
+            embedding_.go_to(std::span(current_).first(trial_next_));
+            rest_bound_ = 0;
+            for (std::size_t i = trial_next_; i < trial_.size(); ++i) {
+                rest_bound_ += pool.cost(root_walks_[trial_[i]]);
+            }
+        }
+        const Outcome outcome = evaluate(budget);
+        if (outcome == Outcome::running || outcome == Outcome::tied) {
+            return outcome;
+        }
+        in_trial_ = false;
+        if (outcome == Outcome::improved) {
+            current_ = embedding_.sequence();
+            current_cost_ = embedding_.cost();
+            find_moves();
+            switch (incumbent_.offer(embedding_)) {
+                case Incumbent::Outcome::accepted:
+                    kicks_ = 0;
+                    return Outcome::improved;
+                case Incumbent::Outcome::tied:
+                    return Outcome::tied;
+                case Incumbent::Outcome::rejected:
+                    break;
+            }
+        } else if (is_kick_) {
+            // No embedding in this order.
+            next_move_ = moves_.size();
+        }
+    }
+}
+
+/// Inserts the rest of the trial; `improved` if it is complete and below the limit, `finished` if
+/// it is not.
+LocalSearch::Outcome LocalSearch::evaluate(WorkBudget& budget)
+{
+    const WalkPool& pool = embedding_.pool();
+    while (trial_next_ < trial_.size()) {
+        if (budget.is_spent()) {
+            return Outcome::running;
+        }
+        const Index edge = trial_[trial_next_];
+        const Length root = pool.cost(root_walks_[edge]);
+        const Length others = embedding_.cost() + rest_bound_ - root;
+        if (others + root >= trial_limit_) {
+            return Outcome::finished;
+        }
+        const Length limit =
+            trial_limit_ == kInfiniteLength ? kInfiniteLength : trial_limit_ - others;
+        const auto answer = oracle_.find(edge, limit, budget);
+        switch (answer.outcome) {
+            case PathOracle::Outcome::running:
+                return Outcome::running;
+            case PathOracle::Outcome::tied:
+                return Outcome::tied;
+            case PathOracle::Outcome::blocked:
+            case PathOracle::Outcome::exceeded:
+                return Outcome::finished;
+            case PathOracle::Outcome::found:
+                break;
+        }
+        budget.charge(kInsertionWork);
+        if (!embedding_.insert(answer.walk)) {
+            return Outcome::finished;
+        }
+        rest_bound_ -= root;
+        ++trial_next_;
+    }
+    return embedding_.cost() < trial_limit_ ? Outcome::improved : Outcome::finished;
+}
+
+}  // namespace layout_embedding

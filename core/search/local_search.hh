@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "base/random.hh"
+#include "base/types.hh"
+#include "search/incumbent.hh"
+#include "search/partial_embedding.hh"
+#include "search/path_oracle.hh"
+#include "search/work_budget.hh"
+
+namespace layout_embedding {
+
+/// Improves an embedding by changing the order in which its paths are inserted (design, Sec. 2).
+///
+/// A path that is longer than it would have to be is inserted earlier: right before one of those
+/// that cross its unconstrained path, or leave a landmark in its way. Descends to an order that no
+/// such move improves, then moves a few random edges and descends again, as long as that helps.
+class LocalSearch {
+public:
+    enum class Outcome {
+        running,
+        /// The incumbent has improved.
+        improved,
+        finished,
+        /// Equal lengths: start again with other perturbations.
+        tied,
+    };
+
+    /// Keeps references. The incumbent exists, and `root_walks` are the unconstrained paths per
+    /// layout edge. Leaves `embedding` in any state.
+    LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
+                std::vector<Index> root_walks);
+
+    Outcome run(WorkBudget& budget);
+
+private:
+    /// Take the edge at place `from` and insert it at place `to` < `from`.
+    struct Move {
+        Index from;
+        Index to;
+    };
+
+    void find_moves();
+    void begin_trial(const Move& move);
+    bool begin_kick();
+    Outcome evaluate(WorkBudget& budget);
+    bool in_the_way(Index walk, Index root_walk) const;
+
+    PartialEmbedding& embedding_;
+    PathOracle& oracle_;
+    Incumbent& incumbent_;
+    std::vector<Index> root_walks_;
+
+    std::vector<Index> current_;  // walks in order: what moves start from
+    Length current_cost_ = 0;
+    std::vector<Move> moves_;
+    std::size_t next_move_ = 0;
+    std::vector<Index> trial_;  // edges in order
+    std::size_t trial_next_ = 0;
+    Length rest_bound_ = 0;      // unconstrained lengths of trial_[trial_next_ ..]
+    Length trial_limit_ = 0;     // trials of this cost or more are given up
+    bool in_trial_ = false;
+    bool is_kick_ = false;
+    Index kicks_ = 0;            // since the last improvement
+    Random random_{1};
+};
+
+}  // namespace layout_embedding

@@ -1,0 +1,146 @@
+#include "surface/walk_pool.hh"
+
+#include <algorithm>
+
+#include "base/random.hh"
+
+namespace layout_embedding {
+
+namespace {
+
+/// Whether x comes before y going counter-clockwise from `from`; all three differ. The darts that
+/// leave a node are numbered counter-clockwise.
+bool is_before(Index from, Index x, Index y)
+{
+    return (from < x && x < y) || (x < y && y < from) || (y < from && from < x);
+}
+
+}  // namespace
+
+WalkPool::WalkPool(const Strands& strands)
+    : graph_(strands.graph()), layout_(strands.layout()), leaving_(layout_.vertex_count())
+{}
+
+Index WalkPool::add(Index layout_edge, const std::vector<Index>& darts)
+{
+    std::uint64_t hash = layout_edge;
+    Length cost = 0;
+    for (const Index d : darts) {
+        hash = Random::mix(hash + d + 1);
+        cost += graph_.dart(d).length;
+    }
+    const auto [begin, end] = ids_by_hash_.equal_range(hash);
+    for (auto it = begin; it != end; ++it) {
+        const Walk& walk = walks_[it->second];
+        if (walk.layout_edge == layout_edge && walk.darts == darts) {
+            return it->second;
+        }
+    }
+    const Index id = size();
+    walks_.push_back({layout_edge, darts, cost, {}, {kNone, kNone}});
+    ids_by_hash_.emplace(hash, id);
+    find_crossings(id);
+    find_place(id, 0);
+    find_place(id, 1);
+    return id;
+}
+
+bool WalkPool::cross(Index a, Index b) const
+{
+    if (walks_[a].crossing.size() > walks_[b].crossing.size()) {
+        std::swap(a, b);
+    }
+    return std::binary_search(walks_[a].crossing.begin(), walks_[a].crossing.end(), b);
+}
+
+/// Whether the stretch that begins at inner node i of a and j of b, where the walks come together
+/// (seen along a), crosses.
+bool WalkPool::crosses(const Walk& a, Index i, const Walk& b, Index j) const
+{
+    const Index a_back = way_back(a, i);
+    Index a_on = way_on(a, i);
+    const Index b_back = way_back(b, j);
+    const Index b_on = way_on(b, j);
+    if (b_back == a_back || b_on == a_back) {
+        return false;  // not where the stretch begins
+    }
+    if (b_back != a_on && b_on != a_on) {
+        // They share this node only.
+        return is_before(a_back, b_back, a_on) != is_before(a_back, b_on, a_on);
+    }
+    const bool forward = b_on == a_on;
+    const Index b_before = forward ? b_back : b_on;
+    const bool begins_right = is_before(a_back, b_before, a_on);
+    Index k = i;
+    Index l = j;
+    for (;;) {
+        if (k + 1 == a.inner_count() || (forward ? l + 1 == b.inner_count() : l == 0)) {
+            return false;  // ends at a landmark
+        }
+        ++k;
+        l = forward ? l + 1 : l - 1;
+        a_on = way_on(a, k);
+        const Index b_ahead = forward ? way_on(b, l) : way_back(b, l);
+        if (b_ahead != a_on) {
+            return begins_right != is_before(way_back(a, k), b_ahead, a_on);
+        }
+    }
+}
+
+void WalkPool::find_crossings(Index walk)
+{
+    Walk& a = walks_[walk];
+    for (Index i = 0; i < a.inner_count(); ++i) {
+        auto& visits = visits_of_nodes_[graph_.head(a.darts[i])];
+        for (const Visit& visit : visits) {
+            if (visit.walk != walk && walks_[visit.walk].layout_edge != a.layout_edge &&
+                crosses(a, i, walks_[visit.walk], visit.k)) {
+                a.crossing.push_back(visit.walk);
+            }
+        }
+        visits.push_back({walk, i});
+    }
+    std::sort(a.crossing.begin(), a.crossing.end());
+    a.crossing.erase(std::unique(a.crossing.begin(), a.crossing.end()), a.crossing.end());
+    for (const Index other : a.crossing) {
+        walks_[other].crossing.push_back(walk);
+    }
+}
+
+/// Whether x leaves a landmark before y, counter-clockwise from the landmark's first dart.
+bool WalkPool::leaves_before(const Leaving& x, const Leaving& y) const
+{
+    const Walk& a = walks_[x.walk];
+    const Walk& b = walks_[y.walk];
+    const auto leaving = [&](const Walk& walk, Index from_end, Index step) {
+        return from_end == 1 ? graph_.twin(walk.darts[walk.darts.size() - 1 - step])
+                             : walk.darts[step];
+    };
+    Index previous = kNone;
+    const std::size_t steps = std::min(a.darts.size(), b.darts.size());
+    for (Index step = 0; step < steps; ++step) {
+        const Index a_on = leaving(a, x.from_end, step);
+        const Index b_on = leaving(b, y.from_end, step);
+        if (a_on != b_on) {
+            return previous == kNone ? a_on < b_on
+                                     : is_before(graph_.twin(previous), a_on, b_on);
+        }
+        previous = a_on;
+    }
+    return false;  // the same walk: walks of different edges end at different landmarks
+}
+
+void WalkPool::find_place(Index walk, Index from_end)
+{
+    const Index h = 2 * walks_[walk].layout_edge + from_end;
+    auto& leaving = leaving_[layout_.tail(h)];
+    const Leaving here{walk, from_end};
+    const auto place = std::upper_bound(
+        leaving.begin(), leaving.end(), here,
+        [&](const Leaving& x, const Leaving& y) { return leaves_before(x, y); });
+    for (auto it = leaving.insert(place, here); it != leaving.end(); ++it) {
+        walks_[it->walk].places[it->from_end] = static_cast<Index>(it - leaving.begin());
+    }
+}
+
+}  // namespace layout_embedding
