@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "random_instances.hh"
+#include "instances.hh"
+#include "search_ground.hh"
 #include "surface/conflicts.hh"
 #include "surface/strand_checker.hh"
 

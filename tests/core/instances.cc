@@ -1,10 +1,11 @@
-#include "embedding_instances.hh"
+#include "instances.hh"
 
 #include <memory>
 #include <utility>
 
-#include "random_instances.hh"
-#include "surface/hole_guard.hh"
+#include "base/random.hh"
+#include "random_draws.hh"
+#include "search_ground.hh"
 #include "zoo.hh"
 
 namespace layout_embedding::test {
@@ -48,21 +49,52 @@ private:
 
 }  // namespace
 
-std::optional<WeakEmbedding> insert_in_random_order(const EmbeddingProblem& problem,
-                                                    const PathGraph& graph, Random& random)
+EmbeddingProblem problem_of(const PolygonMesh& layout, const PolygonMesh& target,
+                            std::vector<Index> landmarks)
 {
-    Strands strands(problem, graph);
-    DistanceFields fields(graph, strands.passable(), std::uint64_t{1} << 26U);
-    CutSurfaceSearch search(strands, fields);
-    const HoleGuard guard(strands);
-    for (const Index e : random_tree_first_order(*problem.layout, random)) {
-        search.begin(e);
-        if (search.run() != CutSurfaceSearch::Outcome::found ||
-            !strands.insert(e, search.darts()) || !guard.accepts()) {
-            return std::nullopt;
+    return make_problem(
+               std::make_shared<const Layout>(Layout::from_polygons(layout, "the layout").value()),
+               std::make_shared<const TriangleMesh>(target), std::move(landmarks))
+        .value();
+}
+
+std::vector<Instance> random_instances(std::uint64_t seed, int count)
+{
+    Random random(seed);
+    std::vector<Instance> instances;
+    for (int i = 0; i < count; ++i) {
+        PolygonMesh layout;
+        std::string name;
+        switch (i % 3) {
+            case 0:
+                layout = zoo::cube();
+                name = "cube";
+                break;
+            case 1:
+                layout = zoo::prism(3);
+                name = "prism";
+                break;
+            default: {
+                const int vertices = 4 + static_cast<int>(random.below(9));
+                layout = zoo::random_triangulation(vertices, random.bits());
+                name = "triangulation" + std::to_string(vertices);
+            }
         }
+        PolygonMesh target;
+        if (i % 2 == 0) {
+            const int vertices = 14 + static_cast<int>(random.below(60));
+            target = zoo::random_triangulation(vertices, random.bits());
+            name += " in random" + std::to_string(vertices);
+        } else {
+            const int levels = 1 + static_cast<int>(random.below(3));
+            target = zoo::crumpled_sphere(levels, random.bits());
+            name += " in crumpled" + std::to_string(target.vertex_count());
+        }
+        const auto landmarks = zoo::random_landmarks(target, layout.vertex_count(), random.bits());
+        instances.push_back(
+            {name + " #" + std::to_string(i), problem_of(layout, target, landmarks)});
     }
-    return strands.weak_embedding();
+    return instances;
 }
 
 std::vector<EmbeddedInstance> embedded_instances(std::uint64_t seed)
