@@ -1,6 +1,6 @@
 // npm test: sets everything up, builds it, runs all tests and prints one summary, whose last line is
 // "N passed, N failed, N skipped". A part that fails does not keep later parts from running.
-//   npm test -- [--only PART]...      parts: release, debug, fuzz, node, browser
+//   npm test -- [--only PART]...      parts: release, debug, node, browser
 import { mkdirSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { parseArgs } from "node:util";
@@ -48,9 +48,8 @@ function vitest(project, ...builds) {
 
 const parts = {
     release: { name: "C++, release", run: ctest("release") },
-    // With sanitizers everything is an order of magnitude slower.
+    // With sanitizers everything is an order of magnitude slower. Short fuzz runs are among them.
     debug: { name: "C++, sanitizers", run: ctest("debug", "-LE", "slow") },
-    fuzz: { name: "C++, fuzz", run: ctest("fuzz", "-L", "fuzz") },
     node: { name: "Node", run: vitest("node", buildPackage) },
     browser: { name: "Browser", run: vitest("browser", buildPackage, buildPage) },
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "zoo.hh"
+
 namespace layout_embedding {
 
 namespace {
@@ -278,58 +280,6 @@ std::vector<WeakPoint> weak_path_along(const std::vector<Index>& vertices)
     return path;
 }
 
-PolygonMesh polygon_mesh(const std::vector<Vec3>& positions,
-                         const std::vector<std::vector<Index>>& faces)
-{
-    PolygonMesh mesh;
-    mesh.positions = positions;
-    for (const std::vector<Index>& face : faces) {
-        mesh.add_face(face);
-    }
-    return mesh;
-}
-
-PolygonMesh tetrahedron_polygons()
-{
-    return polygon_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
-                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
-}
-
-PolygonMesh cube_polygons()
-{
-    return polygon_mesh(
-        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-        {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
-}
-
-PolygonMesh octahedron_polygons()
-{
-    return polygon_mesh(
-        {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-        {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}});
-}
-
-PolygonMesh icosahedron_polygons()
-{
-    const double g = (1 + std::sqrt(5.0)) / 2;
-    return polygon_mesh(
-        {{-1, g, 0},
-         {1, g, 0},
-         {-1, -g, 0},
-         {1, -g, 0},
-         {0, -1, g},
-         {0, 1, g},
-         {0, -1, -g},
-         {0, 1, -g},
-         {g, 0, -1},
-         {g, 0, 1},
-         {-g, 0, -1},
-         {-g, 0, 1}},
-        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}});
-}
-
 PolygonMesh grid_polygons(Index columns, Index rows, bool torus)
 {
     std::vector<Vec3> positions;
@@ -351,7 +301,7 @@ PolygonMesh grid_polygons(Index columns, Index rows, bool torus)
             faces.push_back({id(i, j), id(i, j + 1), id(i + 1, j + 1), id(i + 1, j)});
         }
     }
-    return polygon_mesh(positions, faces);
+    return zoo::polygon_mesh(positions, faces);
 }
 
 }  // namespace layout_embedding

@@ -53,13 +53,8 @@ void twist_weak_paths(ClaimedEmbedding& embedding, const std::vector<Index>& loo
 /// A weak path along target edges through the given vertices.
 std::vector<WeakPoint> weak_path_along(const std::vector<Index>& vertices);
 
-PolygonMesh polygon_mesh(const std::vector<Vec3>& positions,
-                         const std::vector<std::vector<Index>>& faces);
-PolygonMesh tetrahedron_polygons();
-PolygonMesh cube_polygons();
-PolygonMesh octahedron_polygons();
-PolygonMesh icosahedron_polygons();
 /// A grid of quads, closed in one direction (an annulus, `columns` around) or in both (a torus).
+/// Vertex (column, row) is number row * columns + column, which tests of the checker rely on.
 PolygonMesh grid_polygons(Index columns, Index rows, bool torus);
 
 }  // namespace layout_embedding

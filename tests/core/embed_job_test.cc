@@ -5,7 +5,7 @@
 
 #include "embedding/checker.hh"
 #include "embedding_checks.hh"
-#include "random_instances.hh"
+#include "instances.hh"
 #include "zoo.hh"
 
 namespace layout_embedding {

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "embedding_checks.hh"
-#include "embedding_instances.hh"
+#include "instances.hh"
 #include "naive_greedy.hh"
-#include "random_instances.hh"
+#include "search_ground.hh"
 #include "zoo.hh"
 
 namespace layout_embedding {

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "apps/embed_job.hh"
-#include "embedding_instances.hh"
-#include "random_instances.hh"
+#include "instances.hh"
 #include "search/greedy.hh"
 #include "search/side_test.hh"
 #include "search/swirl_test.hh"
+#include "search_ground.hh"
 #include "zoo.hh"
 
 namespace layout_embedding {

@@ -6,9 +6,10 @@
 #include "embedding/checker.hh"
 #include "embedding/realisation.hh"
 #include "embedding_checks.hh"
+#include "instances.hh"
 #include "naive_greedy.hh"
-#include "random_instances.hh"
 #include "search/greedy.hh"
+#include "search_ground.hh"
 #include "zoo.hh"
 
 // Surfaces with boundary and of higher genus: whatever greedy insertion completes has to pass both

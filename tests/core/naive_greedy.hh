@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "layout/layout.hh"
-#include "random_instances.hh"
+#include "search_ground.hh"
 
 namespace layout_embedding::test {
 

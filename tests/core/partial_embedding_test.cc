@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "random_instances.hh"
+#include "instances.hh"
+#include "search_ground.hh"
 #include "surface/conflicts.hh"
 #include "zoo.hh"
 

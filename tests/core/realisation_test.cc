@@ -11,7 +11,8 @@
 #include "embedding/check_input.hh"
 #include "embedding/checker.hh"
 #include "embedding/weak_to_normal_form.hh"
-#include "embedding_instances.hh"
+#include "instances.hh"
+#include "search_ground.hh"
 #include "surface/strands.hh"
 #include "zoo.hh"
 

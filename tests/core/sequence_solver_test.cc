@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "embedding_checks.hh"
-#include "random_instances.hh"
+#include "instances.hh"
+#include "search_ground.hh"
 
 namespace layout_embedding {
 namespace {

@@ -3,7 +3,8 @@
 #include <map>
 
 #include "embedding_checks.hh"
-#include "random_instances.hh"
+#include "instances.hh"
+#include "search_ground.hh"
 #include "surface/strand_checker.hh"
 #include "zoo.hh"
 

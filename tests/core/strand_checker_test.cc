@@ -6,8 +6,8 @@
 #include <set>
 
 #include "embedding_checks.hh"
-#include "embedding_instances.hh"
-#include "random_instances.hh"
+#include "instances.hh"
+#include "search_ground.hh"
 #include "zoo.hh"
 
 namespace layout_embedding {

@@ -4,13 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
-#include <set>
 #include <utility>
-
-#include "base/random.hh"
 
 namespace layout_embedding::zoo {
 namespace {
@@ -41,16 +36,6 @@ std::array<double, 2> on_circle(int i, int n)
     return on_circle(static_cast<double>(i) / n);
 }
 
-PolygonMesh make(std::vector<Vec3> positions, const std::vector<std::vector<Index>>& faces)
-{
-    PolygonMesh mesh;
-    mesh.positions = std::move(positions);
-    for (const auto& face : faces) {
-        mesh.add_face(face);
-    }
-    return mesh;
-}
-
 void add(PolygonMesh& mesh, std::initializer_list<int> corners)
 {
     std::vector<Index> face;
@@ -58,53 +43,6 @@ void add(PolygonMesh& mesh, std::initializer_list<int> corners)
         face.push_back(static_cast<Index>(corner));
     }
     mesh.add_face(face);
-}
-
-PolygonMesh on_unit_sphere(PolygonMesh mesh)
-{
-    for (Vec3& p : mesh.positions) {
-        p /= p.norm();
-    }
-    return mesh;
-}
-
-Vec3 random_direction(Random& random)
-{
-    for (;;) {
-        const double x = 2 * random.unit() - 1;
-        const double y = 2 * random.unit() - 1;
-        const double z = 2 * random.unit() - 1;
-        const Vec3 p(x, y, z);
-        if (p.squaredNorm() <= 1 && p.squaredNorm() > 0.01) {
-            return p / p.norm();
-        }
-    }
-}
-
-template <typename T>
-void shuffle(std::vector<T>& items, Random& random)
-{
-    for (std::size_t i = items.size(); i > 1; --i) {
-        std::swap(items[i - 1], items[random.below(i)]);
-    }
-}
-
-std::vector<bool> boundary_vertices(const PolygonMesh& mesh)
-{
-    std::set<std::pair<Index, Index>> directed;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        const auto face = mesh.face(f);
-        for (std::size_t i = 0; i < face.size(); ++i) {
-            directed.emplace(face[i], face[(i + 1) % face.size()]);
-        }
-    }
-    std::vector<bool> boundary(mesh.vertex_count(), false);
-    for (const auto& [a, b] : directed) {
-        if (directed.count({b, a}) == 0) {
-            boundary[a] = boundary[b] = true;
-        }
-    }
-    return boundary;
 }
 
 /// An n by m grid of quads; `wrap_n`, `wrap_m`: closed in that direction. `position(i, j)` places
@@ -133,27 +71,27 @@ PolygonMesh grid(int n, int m, bool wrap_n, bool wrap_m, Position position)
 
 PolygonMesh tetrahedron()
 {
-    return on_unit_sphere(make({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
-                               {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}));
+    return on_unit_sphere(polygon_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                                       {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}));
 }
 
 PolygonMesh cube()
 {
-    return on_unit_sphere(
-        make({{-1, -1, -1},
-              {1, -1, -1},
-              {1, 1, -1},
-              {-1, 1, -1},
-              {-1, -1, 1},
-              {1, -1, 1},
-              {1, 1, 1},
-              {-1, 1, 1}},
-             {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}));
+    return on_unit_sphere(polygon_mesh(
+        {{-1, -1, -1},
+         {1, -1, -1},
+         {1, 1, -1},
+         {-1, 1, -1},
+         {-1, -1, 1},
+         {1, -1, 1},
+         {1, 1, 1},
+         {-1, 1, 1}},
+        {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}));
 }
 
 PolygonMesh octahedron()
 {
-    return make(
+    return polygon_mesh(
         {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
         {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}});
 }
@@ -161,22 +99,22 @@ PolygonMesh octahedron()
 PolygonMesh icosahedron()
 {
     const double t = (1 + std::sqrt(5.0)) / 2;
-    return on_unit_sphere(
-        make({{-1, t, 0},
-              {1, t, 0},
-              {-1, -t, 0},
-              {1, -t, 0},
-              {0, -1, t},
-              {0, 1, t},
-              {0, -1, -t},
-              {0, 1, -t},
-              {t, 0, -1},
-              {t, 0, 1},
-              {-t, 0, -1},
-              {-t, 0, 1}},
-             {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-              {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-              {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}));
+    return on_unit_sphere(polygon_mesh(
+        {{-1, t, 0},
+         {1, t, 0},
+         {-1, -t, 0},
+         {1, -t, 0},
+         {0, -1, t},
+         {0, 1, t},
+         {0, -1, -t},
+         {0, 1, -t},
+         {t, 0, -1},
+         {t, 0, 1},
+         {-t, 0, -1},
+         {-t, 0, 1}},
+        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}));
 }
 
 PolygonMesh icosphere(int levels)
@@ -184,31 +122,6 @@ PolygonMesh icosphere(int levels)
     PolygonMesh mesh = icosahedron();
     for (int i = 0; i < levels; ++i) {
         mesh = on_unit_sphere(subdivided(mesh));
-    }
-    return mesh;
-}
-
-PolygonMesh bumpy_sphere(int levels, std::uint64_t seed)
-{
-    PolygonMesh mesh = icosphere(levels);
-    Random random(seed);
-    struct Bump {
-        Vec3 direction;
-        double height;
-        double sharpness;
-    };
-    std::vector<Bump> bumps;
-    for (int i = 0; i < 12; ++i) {
-        const Vec3 direction = random_direction(random);
-        const double height = 0.9 * random.unit() - 0.3;
-        bumps.push_back({direction, height, 3 + 12 * random.unit()});
-    }
-    for (Vec3& p : mesh.positions) {
-        double radius = 1;
-        for (const Bump& bump : bumps) {
-            radius += bump.height / (1 + bump.sharpness * (1 - bump.direction.dot(p)));
-        }
-        p *= std::max(radius, 0.2);
     }
     return mesh;
 }
@@ -277,91 +190,6 @@ PolygonMesh bipyramid(int n)
         add(mesh, {(i + 1) % n, i, n + 1});
     }
     return mesh;
-}
-
-PolygonMesh hull(int points, std::uint64_t seed)
-{
-    Random random(seed);
-    PolygonMesh mesh;
-    for (int i = 0; i < points; ++i) {
-        mesh.positions.push_back(random_direction(random));
-    }
-    const auto& p = mesh.positions;
-    for (int a = 0; a < points; ++a) {
-        for (int b = a + 1; b < points; ++b) {
-            for (int c = b + 1; c < points; ++c) {
-                const Vec3 normal = (p[b] - p[a]).cross(p[c] - p[a]);
-                bool above = false;
-                bool below = false;
-                for (int d = 0; d < points; ++d) {
-                    if (d != a && d != b && d != c) {
-                        (normal.dot(p[d] - p[a]) > 0 ? above : below) = true;
-                    }
-                }
-                if (!above) {
-                    add(mesh, {a, b, c});
-                } else if (!below) {
-                    add(mesh, {a, c, b});
-                }
-            }
-        }
-    }
-    return mesh;
-}
-
-PolygonMesh polygon_hull(int points, std::uint64_t seed)
-{
-    const PolygonMesh triangles = hull(points, seed);
-    Random random(seed + 1);
-    std::vector<std::vector<Index>> faces;
-    std::vector<std::array<Index, 2>> edges;
-    std::vector<int> degrees(triangles.vertex_count(), 0);
-    for (Index f = 0; f < triangles.face_count(); ++f) {
-        const auto face = triangles.face(f);
-        faces.emplace_back(face.begin(), face.end());
-        for (std::size_t i = 0; i < 3; ++i) {
-            ++degrees[face[i]];
-            if (face[i] < face[(i + 1) % 3]) {
-                edges.push_back({face[i], face[(i + 1) % 3]});
-            }
-        }
-    }
-    shuffle(edges, random);
-    // `face` turned so that it begins with b after it ended with a.
-    const auto opened = [](std::vector<Index> face, Index a, Index b) {
-        for (std::size_t i = 0; i < face.size(); ++i) {
-            if (face.back() == a && face.front() == b) {
-                return face;
-            }
-            std::rotate(face.begin(), face.begin() + 1, face.end());
-        }
-        return std::vector<Index>();
-    };
-    for (const auto& [a, b] : edges) {
-        if (degrees[a] <= 3 || degrees[b] <= 3) {
-            continue;
-        }
-        std::size_t left = faces.size();
-        std::size_t right = faces.size();
-        for (std::size_t f = 0; f < faces.size(); ++f) {
-            left = opened(faces[f], a, b).empty() ? left : f;
-            right = opened(faces[f], b, a).empty() ? right : f;
-        }
-        if (left == right) {
-            continue;
-        }
-        std::vector<Index> merged = opened(faces[left], a, b);        // b ... a
-        const std::vector<Index> other = opened(faces[right], b, a);  // a ... b
-        merged.insert(merged.end(), other.begin() + 1, other.end() - 1);
-        if (std::set<Index>(merged.begin(), merged.end()).size() != merged.size()) {
-            continue;
-        }
-        --degrees[a];
-        --degrees[b];
-        faces[left] = merged;
-        faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(right));
-    }
-    return make(triangles.positions, faces);
 }
 
 PolygonMesh quad_grid(int n, int m)
@@ -492,126 +320,6 @@ PolygonMesh slab(int genus, int levels)
     return mesh;
 }
 
-PolygonMesh triangulated(const PolygonMesh& mesh)
-{
-    PolygonMesh result;
-    result.positions = mesh.positions;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        const auto face = mesh.face(f);
-        for (std::size_t i = 2; i < face.size(); ++i) {
-            result.add_face(std::array<Index, 3>{face[0], face[i - 1], face[i]});
-        }
-    }
-    return result;
-}
-
-PolygonMesh subdivided(const PolygonMesh& triangles)
-{
-    PolygonMesh result;
-    result.positions = triangles.positions;
-    std::map<std::pair<Index, Index>, Index> midpoints;
-    const auto midpoint = [&](Index a, Index b) {
-        const auto [entry, is_new] = midpoints.emplace(std::minmax(a, b), result.vertex_count());
-        if (is_new) {
-            result.positions.push_back((triangles.positions[a] + triangles.positions[b]) / 2);
-        }
-        return entry->second;
-    };
-    for (Index f = 0; f < triangles.face_count(); ++f) {
-        const auto face = triangles.face(f);
-        const Index ab = midpoint(face[0], face[1]);
-        const Index bc = midpoint(face[1], face[2]);
-        const Index ca = midpoint(face[2], face[0]);
-        result.add_face(std::array<Index, 3>{face[0], ab, ca});
-        result.add_face(std::array<Index, 3>{ab, face[1], bc});
-        result.add_face(std::array<Index, 3>{ca, bc, face[2]});
-        result.add_face(std::array<Index, 3>{ab, bc, ca});
-    }
-    return result;
-}
-
-PolygonMesh shuffled(const PolygonMesh& mesh, std::uint64_t seed)
-{
-    Random random(seed);
-    std::vector<Index> new_ids(mesh.vertex_count());
-    std::iota(new_ids.begin(), new_ids.end(), 0);
-    shuffle(new_ids, random);
-    std::vector<Index> faces(mesh.face_count());
-    std::iota(faces.begin(), faces.end(), 0);
-    shuffle(faces, random);
-    PolygonMesh result;
-    result.positions.resize(mesh.vertex_count());
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-        result.positions[new_ids[v]] = mesh.positions[v];
-    }
-    for (const Index f : faces) {
-        std::vector<Index> face;
-        for (const Index corner : mesh.face(f)) {
-            face.push_back(new_ids[corner]);
-        }
-        std::rotate(face.begin(),
-                    face.begin() + static_cast<std::ptrdiff_t>(random.below(face.size())),
-                    face.end());
-        result.add_face(face);
-    }
-    return result;
-}
-
-PolygonMesh soup(const PolygonMesh& mesh)
-{
-    PolygonMesh result;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        std::vector<Index> face;
-        for (const Index corner : mesh.face(f)) {
-            face.push_back(result.vertex_count());
-            result.positions.push_back(mesh.positions[corner]);
-        }
-        result.add_face(face);
-    }
-    return result;
-}
-
-std::vector<Index> random_landmarks(const PolygonMesh& target, Index count, std::uint64_t seed)
-{
-    const std::vector<bool> boundary = boundary_vertices(target);
-    std::vector<Index> landmarks;
-    for (Index v = 0; v < target.vertex_count(); ++v) {
-        if (!boundary[v]) {
-            landmarks.push_back(v);
-        }
-    }
-    Random random(seed);
-    shuffle(landmarks, random);
-    landmarks.resize(std::min<std::size_t>(count, landmarks.size()));
-    return landmarks;
-}
-
-std::vector<Index> displaced_landmarks(const PolygonMesh& layout, const PolygonMesh& target,
-                                       double displacement, std::uint64_t seed)
-{
-    std::vector<bool> taken = boundary_vertices(target);
-    Random random(seed);
-    std::vector<Index> landmarks;
-    for (const Vec3& position : layout.positions) {
-        const Vec3 place = position + displacement * random_direction(random);
-        Index nearest = kNone;
-        double distance = std::numeric_limits<double>::infinity();
-        for (Index v = 0; v < target.vertex_count(); ++v) {
-            const double d = (target.positions[v] - place).squaredNorm();
-            if (!taken[v] && d < distance) {
-                nearest = v;
-                distance = d;
-            }
-        }
-        if (nearest == kNone) {
-            break;  // more layout vertices than the target can hold
-        }
-        taken[nearest] = true;
-        landmarks.push_back(nearest);
-    }
-    return landmarks;
-}
-
 std::vector<NamedMesh> targets()
 {
     return {
@@ -650,10 +358,10 @@ std::vector<NamedMesh> layouts()
         {"polygon hull", polygon_hull(16, 3)},
         {"another polygon hull", polygon_hull(24, 4)},
         {"pillow of two triangles",
-         make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}})},
+         polygon_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}})},
         {"tetrahedron with a dangling edge",
-         make({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {0, 0, 0}},
-              {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2, 4, 2}})},
+         polygon_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {0, 0, 0}},
+                      {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2, 4, 2}})},
         {"polygon", polygon(5)},
         {"wheel", wheel(6)},
         {"quad grid", quad_grid(3, 2)},

@@ -8,13 +8,13 @@
 #include "mesh/polygon_mesh.hh"
 #include "mesh/validation.hh"
 
-/// Meshes that every test runs over. All are oriented counter-clockwise seen from outside (disks
-/// and annuli: from +z), their positions use + - * / and square roots alone and are the same on
-/// every platform.
+/// Meshes that every test runs over; instances.hh makes problems of them. All are oriented
+/// counter-clockwise seen from outside (disks and annuli: from +z), their positions use + - * / and
+/// square roots alone and are the same on every platform.
 namespace layout_embedding::zoo {
 
-// Closed surfaces of genus 0. All but the cylinder-like ones have their vertices on the unit
-// sphere.
+// Closed surfaces of genus 0. All but the bumpy, crumpled and stretched ones have their vertices
+// on the unit sphere.
 PolygonMesh tetrahedron();
 /// Six quads.
 PolygonMesh cube();
@@ -24,6 +24,12 @@ PolygonMesh icosahedron();
 PolygonMesh icosphere(int levels);
 /// A star-shaped sphere with seeded smooth bumps and dents.
 PolygonMesh bumpy_sphere(int levels, std::uint64_t seed);
+/// A subdivided octahedron, 4^levels * 8 faces, each vertex at a random distance from the centre
+/// and the whole stretched along z: rough all over.
+PolygonMesh crumpled_sphere(int levels, std::uint64_t seed);
+/// A random triangulation of the sphere without parallel edges, whose vertices stand at random
+/// points of the unit sphere whatever their neighbours: no shape at all, only lengths.
+PolygonMesh random_triangulation(int vertices, std::uint64_t seed);
 /// An ellipsoid with the given half axes: long thin triangles.
 PolygonMesh stretched_sphere(int levels, const Vec3& axes);
 /// Two n-gons joined by n quads.
@@ -64,6 +70,9 @@ PolygonMesh quad_torus(int n, int m);
 PolygonMesh slab(int genus, int levels);
 
 // Tools.
+PolygonMesh polygon_mesh(std::vector<Vec3> positions, const std::vector<std::vector<Index>>& faces);
+/// Every vertex moved to the unit sphere, in its direction from the origin.
+PolygonMesh on_unit_sphere(PolygonMesh mesh);
 /// Every face cut into a fan from its first corner.
 PolygonMesh triangulated(const PolygonMesh& mesh);
 /// Every triangle cut into four at its edges' midpoints; old vertices keep their ids.
