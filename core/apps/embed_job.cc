@@ -92,8 +92,7 @@ struct EmbedJob::Implementation {
 
     void emit(EventKind kind, double progress)
     {
-        events.push_back({kind, phase, seconds(), work, result.cost,
-                          result.lower_bound, progress});
+        events.push_back({kind, phase, seconds(), work, result.cost, result.lower_bound, progress});
     }
 
     void enter(EmbedPhase next)
@@ -202,16 +201,15 @@ struct EmbedJob::Implementation {
     /// Searches for a bounded amount of work.
     void search(std::uint64_t max_work)
     {
-        if (work >= work_limit()) {
-            conclude(EmbedStatus::work_limit);
-            return;
-        }
-        WorkBudget budget(std::min(max_work, work_limit() - work));
+        WorkBudget budget(std::min(max_work, work_limit() - std::min(work, work_limit())));
         const auto outcome = solver->run(budget);
         work += budget.spent();
         update_counters();
         switch (outcome) {
             case Solver::Outcome::running:
+                if (work >= work_limit()) {
+                    conclude(EmbedStatus::work_limit);
+                }
                 break;
             case Solver::Outcome::bounded:
                 set_lower_bound(solver->lower_bound(), solver->bound_scope());

@@ -88,7 +88,7 @@ Length BranchAndBound::lower_bound() const
     if (next_root_ < edge_count_) {
         return 0;
     }
-    if (nodes_.empty() && !incumbent_.exists()) {
+    if (nodes_.empty() && !finished_) {
         return root_bound_;
     }
     Length bound = std::min(pruned_bound_, incumbent_.cost());

@@ -58,11 +58,11 @@ private:
     std::size_t next_move_ = 0;
     std::vector<Index> trial_;  // edges in order
     std::size_t trial_next_ = 0;
-    Length rest_bound_ = 0;      // unconstrained lengths of trial_[trial_next_ ..]
-    Length trial_limit_ = 0;     // trials of this cost or more are given up
+    Length rest_bound_ = 0;   // unconstrained lengths of trial_[trial_next_ ..]
+    Length trial_limit_ = 0;  // trials of this cost or more are given up
     bool in_trial_ = false;
     bool is_kick_ = false;
-    Index kicks_ = 0;            // since the last improvement
+    Index kicks_ = 0;  // since the last improvement
     Random random_{1};
 };
 

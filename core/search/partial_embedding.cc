@@ -179,9 +179,9 @@ bool PartialEmbedding::order_conflict(Index halfedge_a, Index walk_a, Index half
         return (place_a < place_b) != (rank_a < rank_b);
     }
     const Index h = embedded_at(v);
-    return h != kNone && in_cyclic_order(pool_.place(h, walks_[Layout::edge(h)]), place_a,
-                                         place_b) !=
-                             in_cyclic_order(layout().rank(h), rank_a, rank_b);
+    return h != kNone &&
+           in_cyclic_order(pool_.place(h, walks_[Layout::edge(h)]), place_a, place_b) !=
+               in_cyclic_order(layout().rank(h), rank_a, rank_b);
 }
 
 CandidateConflicts PartialEmbedding::conflicts(std::span<const Index> candidates) const

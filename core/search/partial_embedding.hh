@@ -63,8 +63,7 @@ public:
     CandidateConflicts conflicts(std::span<const Index> candidates) const;
     /// The edges whose candidates would not fit any more after that of `layout_edge` was inserted:
     /// its partners in conflicts().pairs. Ascending.
-    std::vector<Index> conflicting_with(Index layout_edge,
-                                        std::span<const Index> candidates) const;
+    std::vector<Index> conflicting_with(Index layout_edge, std::span<const Index> candidates) const;
 
     /// Moves the strands to this state; false if they cannot get there, which only a tie of lengths
     /// that went unnoticed could cause.
@@ -82,10 +81,10 @@ private:
     WalkPool& pool_;
     HoleGuard hole_guard_;
     bool has_holes_;
-    std::vector<bool> linear_;          // per layout vertex: its landmark lies on the boundary
-    std::vector<Index> walks_;          // per layout edge
+    std::vector<bool> linear_;  // per layout vertex: its landmark lies on the boundary
+    std::vector<Index> walks_;  // per layout edge
     std::vector<Index> sequence_;
-    std::vector<Index> strand_walks_;   // as inserted in strands_
+    std::vector<Index> strand_walks_;  // as inserted in strands_
     Length cost_ = 0;
     std::uint64_t insertion_count_ = 0;
 };

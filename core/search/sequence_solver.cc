@@ -12,9 +12,8 @@ SequenceSolver::SequenceSolver(const EmbeddingProblem& problem, const PathGraph&
       embedding_(strands_, pool_),
       oracle_(embedding_, search_, options.remember),
       stage_(options.greedy_start ? Stage::greedy : Stage::branch_and_bound),
-      greedy_(options.greedy_start
-                  ? std::make_unique<GreedySearch>(problem, strands_, search_)
-                  : nullptr),
+      greedy_(options.greedy_start ? std::make_unique<GreedySearch>(problem, strands_, search_)
+                                   : nullptr),
       branch_and_bound_(embedding_, oracle_, incumbent_, options.branch_and_bound)
 {}
 
@@ -88,8 +87,7 @@ Solver::Outcome SequenceSolver::take_greedy_embedding()
         return Outcome::tied;
     }
     if (options_.local_search) {
-        local_search_ =
-            std::make_unique<LocalSearch>(embedding_, oracle_, incumbent_, root_walks_);
+        local_search_ = std::make_unique<LocalSearch>(embedding_, oracle_, incumbent_, root_walks_);
         stage_ = Stage::local_search;
     } else {
         embedding_.go_to({});

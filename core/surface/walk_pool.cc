@@ -122,8 +122,7 @@ bool WalkPool::leaves_before(const Leaving& x, const Leaving& y) const
         const Index a_on = leaving(a, x.from_end, step);
         const Index b_on = leaving(b, y.from_end, step);
         if (a_on != b_on) {
-            return previous == kNone ? a_on < b_on
-                                     : is_before(graph_.twin(previous), a_on, b_on);
+            return previous == kNone ? a_on < b_on : is_before(graph_.twin(previous), a_on, b_on);
         }
         previous = a_on;
     }
@@ -135,9 +134,9 @@ void WalkPool::find_place(Index walk, Index from_end)
     const Index h = 2 * walks_[walk].layout_edge + from_end;
     auto& leaving = leaving_[layout_.tail(h)];
     const Leaving here{walk, from_end};
-    const auto place = std::upper_bound(
-        leaving.begin(), leaving.end(), here,
-        [&](const Leaving& x, const Leaving& y) { return leaves_before(x, y); });
+    const auto place =
+        std::upper_bound(leaving.begin(), leaving.end(), here,
+                         [&](const Leaving& x, const Leaving& y) { return leaves_before(x, y); });
     for (auto it = leaving.insert(place, here); it != leaving.end(); ++it) {
         walks_[it->walk].places[it->from_end] = static_cast<Index>(it - leaving.begin());
     }

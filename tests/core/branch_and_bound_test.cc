@@ -13,8 +13,8 @@ namespace layout_embedding {
 namespace {
 
 using test::Instance;
-using test::tiny_instances;
 using test::SearchGround;
+using test::tiny_instances;
 
 /// The best of all insertion sequences by trying them all, each embedding once; nothing is shared
 /// with the search but the single shortest path.
@@ -166,8 +166,7 @@ TEST(BranchAndBound, remembered_explanations_save_searches_and_change_nothing_el
         Search forgetting(instance.problem, exact(), false);
         remembering.finish();
         forgetting.finish();
-        EXPECT_EQ(remembering.incumbent.cost(),
-                  forgetting.incumbent.cost());
+        EXPECT_EQ(remembering.incumbent.cost(), forgetting.incumbent.cost());
         EXPECT_EQ(remembering.branch_and_bound.lower_bound(),
                   forgetting.branch_and_bound.lower_bound());
         with += remembering.ground.search.search_count();
@@ -191,8 +190,9 @@ TEST(BranchAndBound, bounds_under_a_tolerance_hold_for_the_exact_optimum)
             const auto& bnb = search.branch_and_bound;
             EXPECT_LE(bnb.lower_bound(), optimal.incumbent.cost());
             EXPECT_GE(search.incumbent.cost(), optimal.incumbent.cost());
-            const double reached = static_cast<double>(search.incumbent.cost() - bnb.lower_bound()) /
-                                   static_cast<double>(search.incumbent.cost());
+            const double reached =
+                static_cast<double>(search.incumbent.cost() - bnb.lower_bound()) /
+                static_cast<double>(search.incumbent.cost());
             EXPECT_LE(reached, gap);
             gaps += reached > 0 ? 1 : 0;
         }
@@ -208,8 +208,7 @@ TEST(BranchAndBound, slices_change_nothing)
         Search sliced(instance.problem, exact());
         whole.finish();
         sliced.finish(64);
-        EXPECT_EQ(whole.incumbent.cost(),
-                  sliced.incumbent.cost());
+        EXPECT_EQ(whole.incumbent.cost(), sliced.incumbent.cost());
         EXPECT_EQ(whole.incumbent.walks(), sliced.incumbent.walks());
         EXPECT_EQ(whole.branch_and_bound.counters().states_created,
                   sliced.branch_and_bound.counters().states_created);

@@ -102,7 +102,7 @@ std::vector<Instance> tiny_instances(std::uint64_t seed, int count)
     Random random(seed);
     std::vector<Instance> instances;
     for (int i = 0; i < count; ++i) {
-        const auto [name, layout] = i % 4 == 0   ? std::pair("pyramid", zoo::pyramid(4))
+        const auto [name, layout] = i % 4 == 0    ? std::pair("pyramid", zoo::pyramid(4))
                                     : i % 64 == 1 ? std::pair("prism", zoo::prism(3))
                                                   : std::pair("tetrahedron", zoo::tetrahedron());
         const int vertices = 12 + static_cast<int>(random.below(20));

@@ -53,7 +53,7 @@ SequenceSolverOptions exact()
 TEST(SequenceSolver, no_start_changes_the_optimum)
 {
     std::uint64_t searches[4] = {};
-    for (const Instance& instance : random_instances(111, 25)) {
+    for (const Instance& instance : random_instances(111, 16)) {
         if (instance.problem.layout->edge_count() > 12) {
             continue;
         }
@@ -83,7 +83,7 @@ TEST(SequenceSolver, no_start_changes_the_optimum)
 
 TEST(SequenceSolver, slices_change_neither_what_happens_nor_when)
 {
-    for (const Instance& instance : random_instances(112, 12)) {
+    for (const Instance& instance : test::tiny_instances(112, 24)) {
         SCOPED_TRACE(instance.name);
         SequenceSolverOptions options;
         WholeSearch whole(instance.problem, options);

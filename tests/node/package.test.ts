@@ -50,7 +50,10 @@ describe("an embedding", () => {
     test.each(["greedy", "praun", "kraevoy", "schreiner"] as const)(
         "by_%s_is_complete_and_has_the_bound_of_the_root_state",
         async (algorithm) => {
-            const plain = await embed({ ...problem, landmarks: displacedLandmarks });
+            const plain = await embed(
+                { ...problem, landmarks: displacedLandmarks },
+                { algorithm: "greedy" },
+            );
             const result = await embed(
                 { ...problem, landmarks: displacedLandmarks },
                 { algorithm },
@@ -59,8 +62,23 @@ describe("an embedding", () => {
             expect(result.insertionOrder).toHaveLength(12);
             expect(result.exactLowerBound).toBe(plain.exactLowerBound);
             expect(result.exactCost! >= result.exactLowerBound).toBe(true);
+            const best = await embed({ ...problem, landmarks: displacedLandmarks }, { gap: 0 });
+            expect(best.exactCost! <= result.exactCost!).toBe(true);
+            expect(best.exactLowerBound >= result.exactLowerBound).toBe(true);
         },
     );
+
+    test("by_branch_and_bound_proves_the_best_insertion_sequence", async () => {
+        const result = await embed({ ...problem, landmarks: displacedLandmarks }, { gap: 0 });
+        expect(result.status).toBe("optimal");
+        expect(result.exactCost).toBe(result.exactLowerBound);
+        expect(result.boundScope).toBe("insertionSequences");
+        expect(result.counters.statesExpanded).toBeGreaterThan(0);
+        expect(result.counters.remembered).toBeGreaterThan(0);
+        const costs = result.events.filter(({ kind }) => kind === "incumbent");
+        expect(costs.length).toBeGreaterThan(0);
+        expect(costs.at(-1)!.cost).toBe(result.cost);
+    });
 
     test("without_landmarks_starts_from_proximity", async () => {
         const result = await embed(problem);

@@ -18,7 +18,7 @@ export const formatSeconds = (seconds: number): string =>
 
 export const phaseWords: Record<EmbedPhase, string> = {
     prepare: "Preparing the path graph",
-    search: "Inserting paths",
+    search: "Searching",
     realise: "Cutting the mesh along the paths",
     check: "Checking the embedding",
     done: "Done",
