@@ -105,7 +105,7 @@ public:
 
 private:
     /// By Euler's formula a triangulation has a given number of edges, and without parallel ones
-    /// at most one per pair of vertices.
+    /// at most one per pair of vertices. Boundary loops share no vertex.
     Status check_counts() const
     {
         const long loops = target_.boundary_loop_count();
@@ -116,7 +116,7 @@ private:
             const long edges = 3 * vertices - 6 + 6 * genus + 3 * kept_loops_ - on_kept_loops_;
             // The one closed surface of genus 2 that Euler's formula would allow does not exist
             // (Huneke 1978).
-            return edges <= vertices * (vertices - 1) / 2 &&
+            return landmarks >= 3 * loops && edges <= vertices * (vertices - 1) / 2 &&
                    !(genus == 2 && loops == 0 && vertices == 9);
         };
         const auto given = static_cast<long>(landmarks_.size());
