@@ -75,23 +75,22 @@ public:
         const TriangleMesh closed = open_loops_.empty() ? TriangleMesh() : with_cones();
         const TriangleMesh& mesh = open_loops_.empty() ? target_ : closed;
         std::vector<bool> kept(mesh.vertex_count(), false);
-        std::vector<bool> cones(mesh.vertex_count(), false);
         for (const Index v : landmarks_) {
             kept[v] = true;
         }
+        std::vector<Index> holes;
         for (Index v = target_.vertex_count(); v < mesh.vertex_count(); ++v) {
-            kept[v] = true;
-            cones[v] = true;
+            holes.push_back(v);
         }
         const auto wanted = static_cast<Index>(landmarks_.size() + open_loops_.size());
         TemplateLayout result;
-        Decimation decimation(mesh, std::move(kept));
+        Decimation decimation(mesh, std::move(kept), holes);
         decimation.run(wanted, DecimationEffort::any_shape);
         Random random(1);
         while (decimation.mesh().vertex_count() > wanted &&
                result.times_unblocked < kMostUnblockings) {
             ++result.times_unblocked;
-            decimation.unblock(random, kUnblockingTries, cones);
+            decimation.unblock(random, kUnblockingTries);
             decimation.run(wanted, DecimationEffort::any_shape);
         }
         if (decimation.mesh().vertex_count() > wanted) {

@@ -81,14 +81,20 @@ bool Decimation::Later::operator()(const Entry& a, const Entry& b) const
     return a.stamp > b.stamp;
 }
 
-Decimation::Decimation(const TriangleMesh& mesh, std::vector<bool> kept)
+Decimation::Decimation(const TriangleMesh& mesh, std::vector<bool> kept,
+                       std::span<const Index> holes)
     : mesh_(mesh),
       kept_(std::move(kept)),
+      holes_(holes.begin(), holes.end()),
       points_(scaled_points(mesh.positions())),
       quadrics_(surface_quadrics(mesh, points_)),
       states_(mesh.vertex_count())
 {
     kept_.resize(mesh.vertex_count(), false);
+    for (const Index hole : holes_) {
+        kept_[hole] = true;
+        mesh_.add_hole(hole);
+    }
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
         reset(v);
     }
@@ -294,7 +300,7 @@ bool Decimation::keeps_shape(Index v, Index w) const
     return fine;
 }
 
-bool Decimation::unblock(Random& random, int tries, const std::vector<bool>& fixed_edges_at)
+bool Decimation::unblock(Random& random, int tries)
 {
     std::vector<Index> blocked;
     for (Index v = 0; v < mesh_.vertex_capacity() && blocked.size() < kMaxBlocked; ++v) {
@@ -326,7 +332,11 @@ bool Decimation::unblock(Random& random, int tries, const std::vector<bool>& fix
     bool free = false;
     for (int i = 0; i < tries && !free; ++i) {
         const Index h = halfedges[random.below(halfedges.size())];
-        if (fixed_edges_at[mesh_.tail(h)] || fixed_edges_at[mesh_.head(h)] || !mesh_.can_flip(h)) {
+        const auto leads_to = [&](Index hole) {
+            return mesh_.tail(h) == hole || mesh_.head(h) == hole;
+        };
+        // What lies on a hole stays there.
+        if (std::any_of(holes_.begin(), holes_.end(), leads_to) || !mesh_.can_flip(h)) {
             continue;
         }
         mesh_.flip(h);

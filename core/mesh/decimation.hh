@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -48,17 +49,19 @@ struct DecimationCounts {
 /// target (mesh/validation.hh).
 class Decimation {
 public:
-    /// Vertices with `kept` true stay whatever happens; empty for none.
-    explicit Decimation(const TriangleMesh& mesh, std::vector<bool> kept = {});
+    /// Vertices with `kept` true stay whatever happens (empty for none), and so do `holes`,
+    /// vertices that stand for holes (EditableMesh::add_hole()).
+    explicit Decimation(const TriangleMesh& mesh, std::vector<bool> kept = {},
+                        std::span<const Index> holes = {});
 
     /// Removes vertices until `vertex_count` are left or no more can be removed with this effort.
     /// Can be called again, with fewer vertices or more effort.
     void run(Index vertex_count, DecimationEffort effort);
 
-    /// Flips up to `tries` edges at random (seeded, not those with an end in `fixed_edges_at`),
-    /// away from what blocks the vertices that are still to be removed; true as soon as one of them
-    /// can be removed again. For coarse meshes: a try takes as long as looking at all their stars.
-    bool unblock(Random& random, int tries, const std::vector<bool>& fixed_edges_at);
+    /// Flips up to `tries` edges at random (seeded, none that leads to a hole), away from what
+    /// blocks the vertices that are still to be removed; true as soon as one of them can be removed
+    /// again. For coarse meshes: a try takes as long as looking at all their stars.
+    bool unblock(Random& random, int tries);
 
     const EditableMesh& mesh() const { return mesh_; }
     const DecimationCounts& counts() const { return counts_; }
@@ -98,6 +101,7 @@ private:
 
     EditableMesh mesh_;
     std::vector<bool> kept_;
+    std::vector<Index> holes_;
     std::vector<Vec3> points_;  // scaled to a unit box
     std::vector<Quadric> quadrics_;
     std::vector<State> states_;

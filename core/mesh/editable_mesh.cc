@@ -51,6 +51,40 @@ bool EditableMesh::adjacent(Index v, Index w) const
     return found;
 }
 
+bool EditableMesh::can_join(Index v, Index w) const
+{
+    for (const Index hole : holes_) {
+        if ((v == hole && !can_touch(w, hole)) || (w == hole && !can_touch(v, hole))) {
+            return false;
+        }
+    }
+    return !adjacent(v, w);
+}
+
+/// Whether v can become a neighbour of the vertex that stands for a hole.
+bool EditableMesh::can_touch(Index v, Index hole) const
+{
+    return !is_boundary_vertex(v) && std::none_of(holes_.begin(), holes_.end(), [&](Index other) {
+        return other == v || (other != hole && adjacent(other, v));
+    });
+}
+
+/// Whether moving v into w leaves no vertex on two holes: w takes over the holes at v.
+bool EditableMesh::keeps_holes_apart(Index v, Index w) const
+{
+    bool apart = true;
+    for (const Index hole : holes_) {
+        if (hole == w) {
+            for_each_neighbour(v, [&](Index u) {
+                apart = apart && (u == w || adjacent(u, hole) || can_touch(u, hole));
+            });
+        } else if (adjacent(v, hole) && !adjacent(w, hole)) {
+            apart = apart && can_touch(w, hole);
+        }
+    }
+    return apart;
+}
+
 Index EditableMesh::common_neighbours(Index v, Index w) const
 {
     if (degrees_[w] < degrees_[v]) {
@@ -72,6 +106,9 @@ Index EditableMesh::common_neighbours(Index v, Index w) const
 
 bool EditableMesh::can_collapse(Index v, Index w) const
 {
+    if (!keeps_holes_apart(v, w)) {
+        return false;
+    }
     const Index left = find_halfedge(v, w);
     const Index right = left == kNone ? find_halfedge(w, v) : opposites_[left];
     if (left != kNone && right != kNone) {
@@ -157,7 +194,7 @@ bool EditableMesh::can_flip(Index h) const
     }
     const Index a = corners_[previous(h)];
     const Index b = corners_[previous(twin)];
-    return a != b && !adjacent(a, b);
+    return a != b && can_join(a, b);
 }
 
 void EditableMesh::flip(Index h)

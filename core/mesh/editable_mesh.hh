@@ -19,6 +19,11 @@ class EditableMesh {
 public:
     explicit EditableMesh(const TriangleMesh& mesh);
 
+    /// Vertex v stands for a hole, its faces are a cone over the hole's boundary loop: from now on
+    /// nothing makes a vertex lie on two holes, neither on two of these nor on one and the
+    /// boundary.
+    void add_hole(Index v) { holes_.push_back(v); }
+
     /// Of the vertices that are left.
     Index vertex_count() const { return vertex_count_; }
     /// One more than the largest vertex id, left or removed.
@@ -75,6 +80,8 @@ public:
     Index find_halfedge(Index v, Index w) const;
     /// Whether an edge joins v and w. O(the smaller degree).
     bool adjacent(Index v, Index w) const;
+    /// Whether an edge between v and w would be the only one, and would lead to no second hole.
+    bool can_join(Index v, Index w) const;
 
     /// Whether moving v into its neighbour w keeps the surface what it is (the link condition,
     /// Dey et al. 1999): v and w have no common neighbours but the third corners of the one or two
@@ -92,6 +99,8 @@ public:
 
 private:
     void glue(Index a, Index b);
+    bool can_touch(Index v, Index hole) const;
+    bool keeps_holes_apart(Index v, Index w) const;
     Index common_neighbours(Index v, Index w) const;
 
     Index vertex_count_;
@@ -99,6 +108,7 @@ private:
     std::vector<Index> opposites_;  // per halfedge
     std::vector<Index> outgoing_;   // per vertex, kNone where removed
     std::vector<Index> degrees_;    // per vertex
+    std::vector<Index> holes_;      // vertices that stand for one
     // common_neighbours() marks vertices with a number that it raises each time.
     mutable std::vector<Index> marks_;
     mutable Index mark_ = 0;

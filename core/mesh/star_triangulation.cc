@@ -70,7 +70,7 @@ bool StarTriangulation::find(const EditableMesh& mesh, const std::vector<Vec3>& 
         for (std::size_t j = i + 2; j < n; ++j) {
             // On a boundary the last one closes the boundary loop, else it is an edge already.
             const bool outline = i == 0 && j == n - 1 && !boundary_;
-            forbidden_[at(i, j)] = !outline && mesh.adjacent(ring_[i], ring_[j]) ? 1 : 0;
+            forbidden_[at(i, j)] = outline || mesh.can_join(ring_[i], ring_[j]) ? 0 : 1;
         }
     }
     penalties_.assign(n * n, 0);

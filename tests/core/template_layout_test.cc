@@ -72,6 +72,9 @@ std::optional<EmbeddingProblem> expect_template(const TargetPointer& target,
                                                 const PolygonMesh& mesh)
 {
     EXPECT_EQ(mesh.positions.size(), landmarks.size());
+    if (mesh.positions.size() != landmarks.size()) {
+        return std::nullopt;
+    }
     for (Index i = 0; i < landmarks.size(); ++i) {
         EXPECT_EQ(mesh.positions[i], target->position(landmarks[i]));
     }
@@ -177,7 +180,7 @@ TEST(TemplateLayout, keeps_boundary_loops_through_their_landmarks_in_order)
     for (const auto& [name, mesh] : {zoo::NamedMesh{"disk", zoo::grid_disk(12, 9)},
                                      zoo::NamedMesh{"annulus", zoo::annulus(24, 6)}}) {
         const auto target = target_of(mesh);
-        // The loops of the target, each with its landmarks in order.
+        int compared = 0;
         for (std::uint64_t seed = 1; seed <= 20; ++seed) {
             SCOPED_TRACE(name + " seed " + std::to_string(seed));
             const auto landmarks = random_vertices(*target, 30, seed);
@@ -188,6 +191,7 @@ TEST(TemplateLayout, keeps_boundary_loops_through_their_landmarks_in_order)
             const TemplateLayout layout = made(target, landmarks);
             const auto problem = expect_template(target, landmarks, layout.mesh);
             ASSERT_TRUE(problem.has_value());
+            // The loops of the target, each with its landmarks in order.
             std::vector<std::vector<Index>> expected;
             std::vector<bool> seen(target->halfedge_count(), false);
             for (Index start = 0; start < target->halfedge_count(); ++start) {
@@ -218,11 +222,15 @@ TEST(TemplateLayout, keeps_boundary_loops_through_their_landmarks_in_order)
                 }
                 std::sort(side->begin(), side->end());
             }
-            for (std::size_t i = 0; i < loops.size(); ++i) {
-                ASSERT_GE(expected[i].size(), 3U);
-                EXPECT_EQ(loops[i], expected[i]);
+            const bool all_kept =
+                std::all_of(expected.begin(), expected.end(),
+                            [](const std::vector<Index>& loop) { return loop.size() >= 3; });
+            if (all_kept) {
+                EXPECT_EQ(loops, expected);
+                ++compared;
             }
         }
+        EXPECT_GT(compared, 10);
     }
 }
 
@@ -358,7 +366,12 @@ TEST(TemplateLayout, quads_are_pairs_of_its_triangles)
             const auto landmarks = farthest_points(*target, n);
             const PolygonMesh plain = made(target, landmarks).mesh;
             const PolygonMesh merged = made(target, landmarks, {true}).mesh;
-            expect_template(target, landmarks, merged);
+            const auto problem = expect_template(target, landmarks, merged);
+            ASSERT_TRUE(problem.has_value());
+            for (Index v = 0; v < n; ++v) {
+                EXPECT_GE(problem->layout->outgoing(v).size(),
+                          problem->layout->is_boundary_vertex(v) ? 2U : 3U);
+            }
             EXPECT_EQ(merged.positions, plain.positions);
             const auto old_triangles = triangles_in(plain);
             const auto new_triangles = triangles_in(merged);
@@ -382,9 +395,9 @@ TEST(QuadPairing, finds_the_quads_of_a_cut_up_quad_mesh)
         // A cube bends too much between its faces, a grid has diagonals of one direction.
         EXPECT_EQ(triangles_in(merged_into_quads(zoo::triangulated(quads))), triangles_in(quads));
     }
-    // Inner vertices keep three edges.
-    const PolygonMesh wheel = merged_into_quads(zoo::wheel(4));
-    EXPECT_EQ(wheel.face_count(), 3U);
+    // Rhombi in a hexagon; in a square there is no quad without a straight corner.
+    EXPECT_EQ(merged_into_quads(zoo::wheel(6)).face_count(), 3U);
+    EXPECT_EQ(merged_into_quads(zoo::wheel(4)).face_count(), 4U);
     const PolygonMesh tetrahedron = merged_into_quads(zoo::tetrahedron());
     EXPECT_EQ(tetrahedron.face_count(), 4U);
 }
