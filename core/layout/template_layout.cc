@@ -55,6 +55,7 @@ public:
         for (std::vector<Index>& loop : boundary_loops(target)) {
             const auto on_loop = static_cast<Index>(
                 std::count_if(loop.begin(), loop.end(), [&](Index v) { return ids_[v] != kNone; }));
+            at_least_ += std::max<Index>(on_loop, 3);
             if (on_loop < 3) {
                 open_loops_.push_back(std::move(loop));
             } else {
@@ -115,7 +116,7 @@ private:
             const long edges = 3 * vertices - 6 + 6 * genus + 3 * kept_loops_ - on_kept_loops_;
             // The one closed surface of genus 2 that Euler's formula would allow does not exist
             // (Huneke 1978).
-            return landmarks >= 3 * loops && edges <= vertices * (vertices - 1) / 2 &&
+            return landmarks >= at_least_ && edges <= vertices * (vertices - 1) / 2 &&
                    !(genus == 2 && loops == 0 && vertices == 9);
         };
         const auto given = static_cast<long>(landmarks_.size());
@@ -212,6 +213,8 @@ private:
     /// The others, and the landmarks on them.
     long kept_loops_ = 0;
     long on_kept_loops_ = 0;
+    /// Landmarks for all loops: three at least, all those on the loop.
+    long at_least_ = 0;
 };
 
 }  // namespace

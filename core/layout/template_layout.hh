@@ -25,7 +25,7 @@ struct TemplateLayout {
     Index times_unblocked = 0;
 };
 
-/// Makes a layout of a landmarked target (paper, Sec. 7, "Dataset"): all vertices but the landmarks
+/// Makes a layout of a landmarked target (paper, Sec. 5.1): all vertices but the landmarks
 /// are removed by halfedge collapses in the order of their quadric error (mesh/decimation.hh), with
 /// edge flips and finally without regard to shapes where nothing else is left. The layout is a
 /// triangulation of the target's surface, of any genus.

@@ -85,13 +85,18 @@ Decimation::Decimation(const TriangleMesh& mesh, std::vector<bool> kept,
                        std::span<const Index> holes)
     : mesh_(mesh),
       kept_(std::move(kept)),
-      holes_(holes.begin(), holes.end()),
+      hole_of_(mesh.vertex_count(), kNone),
       points_(scaled_points(mesh.positions())),
       quadrics_(surface_quadrics(mesh, points_)),
       states_(mesh.vertex_count())
 {
     kept_.resize(mesh.vertex_count(), false);
-    for (const Index hole : holes_) {
+    for (const Index hole : holes) {
+        mesh_.for_each_neighbour(hole, [&](Index v) {
+            if (kept_[v]) {
+                hole_of_[v] = hole;
+            }
+        });
         kept_[hole] = true;
         mesh_.add_hole(hole);
     }
@@ -332,11 +337,9 @@ bool Decimation::unblock(Random& random, int tries)
     bool free = false;
     for (int i = 0; i < tries && !free; ++i) {
         const Index h = halfedges[random.below(halfedges.size())];
-        const auto leads_to = [&](Index hole) {
-            return mesh_.tail(h) == hole || mesh_.head(h) == hole;
-        };
-        // What lies on a hole stays there.
-        if (std::any_of(holes_.begin(), holes_.end(), leads_to) || !mesh_.can_flip(h)) {
+        const Index v = mesh_.tail(h);
+        const Index w = mesh_.head(h);
+        if (hole_of_[v] == w || hole_of_[w] == v || !mesh_.can_flip(h)) {
             continue;
         }
         mesh_.flip(h);
@@ -347,8 +350,8 @@ bool Decimation::unblock(Random& random, int tries)
             continue;
         }
         least = now;
-        for (const Index v : blocked) {
-            free = free || star_.find(mesh_, points_, v, true);
+        for (const Index u : blocked) {
+            free = free || star_.find(mesh_, points_, u, true);
         }
     }
     for (const Index v : blocked) {

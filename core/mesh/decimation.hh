@@ -50,7 +50,8 @@ struct DecimationCounts {
 class Decimation {
 public:
     /// Vertices with `kept` true stay whatever happens (empty for none), and so do `holes`,
-    /// vertices that stand for holes (EditableMesh::add_hole()).
+    /// vertices that stand for holes (EditableMesh::add_hole()),
+    /// with the kept vertices on them.
     explicit Decimation(const TriangleMesh& mesh, std::vector<bool> kept = {},
                         std::span<const Index> holes = {});
 
@@ -58,7 +59,7 @@ public:
     /// Can be called again, with fewer vertices or more effort.
     void run(Index vertex_count, DecimationEffort effort);
 
-    /// Flips up to `tries` edges at random (seeded, none that leads to a hole), away from what
+    /// Flips up to `tries` edges at random (seeded), away from what
     /// blocks the vertices that are still to be removed; true as soon as one of them can be removed
     /// again. For coarse meshes: a try takes as long as looking at all their stars.
     bool unblock(Random& random, int tries);
@@ -101,7 +102,8 @@ private:
 
     EditableMesh mesh_;
     std::vector<bool> kept_;
-    std::vector<Index> holes_;
+    /// Per vertex that has to stay on a hole: the vertex that stands for it, else kNone.
+    std::vector<Index> hole_of_;
     std::vector<Vec3> points_;  // scaled to a unit box
     std::vector<Quadric> quadrics_;
     std::vector<State> states_;
