@@ -158,7 +158,7 @@ TEST(EditableMesh, collapses_are_possible_exactly_where_they_keep_the_surface)
     for (const auto& [name, polygons] : small_surfaces()) {
         const TriangleMesh triangles(polygons);
         const Topology topology = topology_of(polygons);
-        for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        for (std::uint64_t seed = 0; seed < 2; ++seed) {
             SCOPED_TRACE(name + " seed " + std::to_string(seed));
             Random random(seed);
             EditableMesh mesh(triangles);
