@@ -71,6 +71,11 @@ const std::vector<ErrorInfo>& all_error_infos()
          "report this input as a bug"},
         {internal, "internal", "something went wrong that should not",
          "report this input as a bug"},
+        {tooFewLandmarksForSurface, "tooFewLandmarksForSurface",
+         "the target has too many handles or holes for a triangulation with so few vertices",
+         "add landmarks"},
+        {templateNotReached, "templateNotReached",
+         "the target could not be collapsed onto its landmarks alone", "add or move landmarks"},
     };
     return table;
 }
@@ -79,7 +84,7 @@ const ErrorInfo& error_info(ErrorCode code)
 {
     const auto& table = all_error_infos();
     const auto index = static_cast<std::size_t>(code);
-    return index < table.size() ? table[index] : table.back();
+    return table[index < table.size() ? index : static_cast<std::size_t>(ErrorCode::internal)];
 }
 
 Error make_error(ErrorCode code, std::string what_and_where,

@@ -48,6 +48,9 @@ enum class ErrorCode : std::uint32_t {
     unresolvedTie,
     realisationFailed,
     internal,
+    // Template layouts.
+    tooFewLandmarksForSurface,
+    templateNotReached,
 };
 
 /// What a user can read about one error code.

@@ -58,6 +58,29 @@ Status check_landmarks(const Layout& layout, const TriangleMesh& target,
                           {{"landmarks", static_cast<std::int64_t>(landmarks.size())},
                            {"layoutVertices", layout.vertex_count()}});
     }
+    return check_landmark_vertices(target, landmarks);
+}
+
+Status check_boundary(const Layout& layout, const TriangleMesh& target,
+                      const std::vector<Index>& landmarks)
+{
+    for (Index v = 0; v < layout.vertex_count(); ++v) {
+        if (!layout.is_boundary_vertex(v) && target.is_boundary_vertex(landmarks[v])) {
+            return make_error(ErrorCode::landmarkOnBoundary,
+                              "landmark " + std::to_string(v) + " is target vertex " +
+                                  std::to_string(landmarks[v]) +
+                                  " on the boundary of the target, but layout vertex " +
+                                  std::to_string(v) + " lies inside the layout",
+                              {{"landmark", v}, {"vertex", landmarks[v]}});
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Status check_landmark_vertices(const TriangleMesh& target, std::span<const Index> landmarks)
+{
     for (Index i = 0; i < landmarks.size(); ++i) {
         if (landmarks[i] >= target.vertex_count()) {
             return make_error(ErrorCode::landmarkOutOfRange,
@@ -91,24 +114,6 @@ Status check_landmarks(const Layout& layout, const TriangleMesh& target,
     }
     return {};
 }
-
-Status check_boundary(const Layout& layout, const TriangleMesh& target,
-                      const std::vector<Index>& landmarks)
-{
-    for (Index v = 0; v < layout.vertex_count(); ++v) {
-        if (!layout.is_boundary_vertex(v) && target.is_boundary_vertex(landmarks[v])) {
-            return make_error(ErrorCode::landmarkOnBoundary,
-                              "landmark " + std::to_string(v) + " is target vertex " +
-                                  std::to_string(landmarks[v]) +
-                                  " on the boundary of the target, but layout vertex " +
-                                  std::to_string(v) + " lies inside the layout",
-                              {{"landmark", v}, {"vertex", landmarks[v]}});
-        }
-    }
-    return {};
-}
-
-}  // namespace
 
 Result<EmbeddingProblem> make_problem(std::shared_ptr<const Layout> layout,
                                       std::shared_ptr<const TriangleMesh> target,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/result.hh"
@@ -18,6 +19,10 @@ struct EmbeddingProblem {
     /// #V_layout target vertex ids, all different.
     std::vector<Index> landmarks;
 };
+
+/// Confirms that the landmarks are different vertices of the target: landmarkOutOfRange,
+/// duplicateLandmark.
+Status check_landmark_vertices(const TriangleMesh& target, std::span<const Index> landmarks);
 
 /// Checks that the three fit together: one landmark per layout vertex (landmarkCount), each a
 /// target vertex (landmarkOutOfRange), all different (duplicateLandmark); at least three

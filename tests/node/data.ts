@@ -39,3 +39,8 @@ export const sphereCubes: Instance[] = [5, 6].flatMap((level) =>
         landmarks: at(`instances/sphere_cube/sphere${String(level)}_seed${String(i + 1)}.txt`),
     })),
 );
+
+/** Targets of all kinds: closed, with a boundary, of genus 1 and 2. */
+export const realMeshes = ["spot_fourleg", "fish", "scorpion_low_resolution"]
+    .concat(["hand_lowres", "demosthenes-low-res", "torus", "skull_low_resolution"])
+    .map((name) => ({ name, target: at(`data/${name}.obj`) }));

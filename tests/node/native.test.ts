@@ -1,14 +1,15 @@
 // The native build makes byte for byte what the package makes, in WebAssembly.
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
-import { Session } from "layout-embedding";
+import { Session, templateLayout } from "layout-embedding";
 import { describe, expect, test } from "vitest";
 import { inFolder, runProgram } from "./command.js";
-import { hasShared, sphereCubes } from "./data.js";
+import { hasShared, realMeshes, sphereCubes } from "./data.js";
 import { cube, displacedLandmarks, obj, octahedron, sphere, torus } from "./meshes.js";
 
 const program = path.resolve(import.meta.dirname, "../../build/release/tests/core/native_embed");
-const isBuilt = existsSync(program);
+const layoutProgram = path.resolve(path.dirname(program), "native_layout");
+const isBuilt = existsSync(program) && existsSync(layoutProgram);
 if (!isBuilt) {
     console.warn(`skipping comparisons with the native build: no ${program} (run npm test)`);
 }
@@ -84,6 +85,44 @@ describe.skipIf(!isBuilt)("the native build agrees with the package", () => {
     test.skipIf(!hasShared).each(named)("on_$name", ({ layout, target, landmarks }) =>
         expectAgreement({ layout, target, landmarks: landmarks! }, 1),
     );
+});
+
+/** Compares template layouts on `count` vertices spread over the numbering. */
+async function expectSameTemplate(target: string, count: number): Promise<void> {
+    const bytes = readFileSync(target);
+    const vertices = bytes.toString("latin1").match(/^v /gm)?.length ?? 0;
+    const landmarks = Array.from({ length: count }, (_, i) => Math.floor((i * vertices) / count));
+    await inFolder(async (folder) => {
+        const list = path.join(folder, "landmarks.txt");
+        writeFileSync(list, landmarks.join("\n"));
+        for (const kind of ["triangles", "quads"]) {
+            const native = await runProgram(layoutProgram, [target, list, kind]);
+            expect(native.stderr).toBe("");
+            const { obj } = await templateLayout(
+                { target: { bytes, name: target }, landmarks },
+                { quads: kind === "quads" },
+            );
+            expect(new TextDecoder().decode(obj)).toBe(native.stdout);
+        }
+    });
+}
+
+describe.skipIf(!isBuilt)("native template layouts agree with the package's", () => {
+    test.each([
+        { name: "sphere", target: sphere(4), count: 12 },
+        { name: "torus", target: torus(24, 18), count: 11 },
+    ])("on_the_$name", ({ target, count }) =>
+        inFolder(async (folder) => {
+            const file = path.join(folder, "target.obj");
+            writeFileSync(file, obj(target));
+            await expectSameTemplate(file, count);
+        }),
+    );
+
+    test.skipIf(!hasShared).each(realMeshes)("on_$name", async ({ target }) => {
+        await expectSameTemplate(target, 12);
+        await expectSameTemplate(target, 33);
+    });
 });
 
 /** The corners of torus(4, 3) on torus(16, 12). */

@@ -3,7 +3,9 @@
 #include "layout/embedding_problem.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
+#include "layout/template_layout.hh"
 #include "mesh/mesh_reader.hh"
+#include "mesh/mesh_writer.hh"
 #include "mesh/repair.hh"
 #include "mesh/validation.hh"
 
@@ -133,6 +135,15 @@ BOUNDARY_EXPORT(boundary_mesh_offsets) std::uint32_t boundary_mesh_offsets(std::
     });
 }
 
+/// Views a mesh as the bytes of an OBJ file.
+BOUNDARY_EXPORT(boundary_mesh_write_obj) std::uint32_t boundary_mesh_write_obj(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_owned_view(write_obj(mesh_object(mesh).mesh));
+        return 1U;
+    });
+}
+
 /// Makes a layout of a mesh, which it does not need any further.
 BOUNDARY_EXPORT(boundary_layout_create)
 std::uint32_t boundary_layout_create(std::uint32_t mesh, const char* subject,
@@ -251,6 +262,29 @@ std::uint32_t boundary_landmarks_note(std::uint32_t landmarks, std::size_t place
 {
     return guarded(
         0U, [&] { return view_note(handles<LandmarksObject>().get(landmarks).notes, place); });
+}
+
+/// Makes a template layout of a target and landmarks on it, with quads unless `quads` is 0. Returns
+/// a mesh, and views as doubles how many vertices were removed by collapses, after edge flips, and
+/// without regard to shapes.
+BOUNDARY_EXPORT(boundary_template_create)
+std::uint32_t boundary_template_create(std::uint32_t target, const Index* landmarks,
+                                       std::size_t landmark_count, std::uint32_t quads)
+{
+    return guarded(0U, [&] {
+        auto made = template_layout(*handles<TargetObject>().get(target).target,
+                                    {landmarks, landmark_count}, {quads != 0});
+        if (!made) {
+            set_error(made.error());
+            return 0U;
+        }
+        const DecimationCounts& counts = made->counts;
+        set_owned_view(std::vector<double>{static_cast<double>(counts.collapses),
+                                           static_cast<double>(counts.after_flips),
+                                           static_cast<double>(counts.in_any_shape)});
+        return handles<MeshObject>().add(
+            std::make_unique<MeshObject>(MeshObject{std::move(made->mesh), {}, {}}));
+    });
 }
 
 /// Confirms that layout, target and landmarks fit together.

@@ -5,6 +5,7 @@ import { parseCommand, wantsJson } from "./cli/arguments.js";
 import { runCheck } from "./cli/check_command.js";
 import { runEmbed } from "./cli/embed_command.js";
 import { helpText } from "./cli/help.js";
+import { runLayout } from "./cli/layout_command.js";
 import { exitCodeOf, type Outcome } from "./cli/outcome.js";
 import { asLayoutError } from "./errors.js";
 import { version } from "./index.js";
@@ -22,6 +23,8 @@ async function run(args: string[]): Promise<Outcome> {
             return runEmbed(command);
         case "check":
             return runCheck(command);
+        case "layout":
+            return runLayout(command);
     }
 }
 

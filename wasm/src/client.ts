@@ -3,7 +3,7 @@
 import type * as WorkerThreads from "node:worker_threads";
 import { javaScriptError, LayoutError } from "./errors.js";
 import type { Reply, Request, SessionMethod } from "./protocol.js";
-import { embedIn } from "./sugar.js";
+import { embedIn, templateIn } from "./sugar.js";
 import type {
     EmbeddingClaim,
     EmbeddingSession,
@@ -20,6 +20,9 @@ import type {
     MeshInput,
     SolveOptions,
     TargetInfo,
+    TemplateLayout,
+    TemplateOptions,
+    TemplateProblem,
     Violation,
 } from "./types.js";
 
@@ -101,6 +104,19 @@ export class EmbeddingWorker {
             return await embedIn(session, problem, options);
         } finally {
             // A terminated worker has no session left to dispose of.
+            await session.dispose().catch(() => undefined);
+        }
+    }
+
+    /** Makes a layout of a target, as templateLayout() of the package does, but in the worker. */
+    async templateLayout(
+        problem: TemplateProblem,
+        options: TemplateOptions & LoadOptions = {},
+    ): Promise<TemplateLayout> {
+        const session = await this.createSession();
+        try {
+            return await templateIn(session, problem, options);
+        } finally {
             await session.dispose().catch(() => undefined);
         }
     }
@@ -209,6 +225,13 @@ class WorkerSession implements EmbeddingSession {
 
     landmarksByProximity(): Promise<LandmarksInfo> {
         return this.call("landmarksByProximity", []) as Promise<LandmarksInfo>;
+    }
+
+    templateLayout(
+        landmarks: LandmarkInput,
+        options: TemplateOptions = {},
+    ): Promise<TemplateLayout> {
+        return this.call("templateLayout", [landmarks, options]) as Promise<TemplateLayout>;
     }
 
     solve(options: SolveOptions = {}): Promise<EmbedResult> {

@@ -3,8 +3,16 @@
 import { Core } from "./core.js";
 import { javaScriptErrors, type ErrorInfo } from "./errors.js";
 import { Session } from "./session.js";
-import { embedIn } from "./sugar.js";
-import type { EmbedOptions, EmbedProblem, EmbedResult } from "./types.js";
+import { embedIn, templateIn } from "./sugar.js";
+import type {
+    EmbedOptions,
+    EmbedProblem,
+    EmbedResult,
+    LoadOptions,
+    TemplateLayout,
+    TemplateOptions,
+    TemplateProblem,
+} from "./types.js";
 
 export { init, type InitOptions, type WasmSource } from "./loader.js";
 export { Session } from "./session.js";
@@ -23,6 +31,22 @@ export async function embed(
     const session = await Session.create();
     try {
         return await embedIn(session, problem, options);
+    } finally {
+        await session.dispose();
+    }
+}
+
+/**
+ * Makes a layout of a target by collapsing its edges until only the landmarks are left; layout
+ * vertex i is landmark i. Rejects with a LayoutError where the input is bad or there is none.
+ */
+export async function templateLayout(
+    problem: TemplateProblem,
+    options: TemplateOptions & LoadOptions = {},
+): Promise<TemplateLayout> {
+    const session = await Session.create();
+    try {
+        return await templateIn(session, problem, options);
     } finally {
         await session.dispose();
     }

@@ -26,6 +26,8 @@ import type {
     MeshInput,
     SolveOptions,
     TargetInfo,
+    TemplateLayout,
+    TemplateOptions,
     Violation,
 } from "./types.js";
 
@@ -94,15 +96,11 @@ export class Session implements EmbeddingSession {
     ): Promise<LandmarksInfo> {
         const notes: string[] = [];
         const record: InputRecord = { role: "landmarks", name: null, sha256: null };
-        let given: Uint32Array<ArrayBuffer>;
         if ("bytes" in input) {
-            const bytes = byteArray(input.bytes, "the landmark file");
             record.name = input.name ?? null;
-            record.sha256 = await sha256(bytes);
-            given = this.readLandmarks(bytes, input.name, notes);
-        } else {
-            given = landmarkIds(input);
+            record.sha256 = await sha256(byteArray(input.bytes, "the landmark file"));
         }
+        const given = this.givenLandmarks(input, notes);
         const { layout, target } = this.inputs();
         const landmarks =
             options.numbering === "loaded" ? given : throughRepairs(given, layout, target);
@@ -126,6 +124,33 @@ export class Session implements EmbeddingSession {
         const record: InputRecord = { role: "landmarks", name: null, sha256: null };
         this.landmarks = { landmarks, notes, record };
         return Promise.resolve({ landmarks: landmarks.slice(), notes: [...notes] });
+    }
+
+    async templateLayout(
+        input: LandmarkInput,
+        options: TemplateOptions = {},
+    ): Promise<TemplateLayout> {
+        const { core, target } = this;
+        this.assertAlive();
+        if (target === null) {
+            throw javaScriptError("missingInput", "no target has been loaded");
+        }
+        const notes: string[] = [];
+        const given = this.givenLandmarks(input, notes);
+        const landmarks =
+            options.numbering === "loaded" ? given : throughTargetRepair(given, target);
+        const made = core.withCopies((copy) =>
+            this.takeTemplate(
+                core.call(
+                    "boundary_template_create",
+                    target.surface,
+                    copy(landmarks),
+                    landmarks.length,
+                    options.quads === true ? 1 : 0,
+                ),
+            ),
+        );
+        return Promise.resolve({ ...made, landmarks, notes });
     }
 
     async solve(options: SolveOptions = {}): Promise<EmbedResult> {
@@ -274,6 +299,12 @@ export class Session implements EmbeddingSession {
         return this.core.viewedIds();
     }
 
+    private givenLandmarks(input: LandmarkInput, notes: string[]): Uint32Array<ArrayBuffer> {
+        return "bytes" in input
+            ? this.readLandmarks(byteArray(input.bytes, "the landmark file"), input.name, notes)
+            : landmarkIds(input);
+    }
+
     private readLandmarks(bytes: Uint8Array, name: string | undefined, notes: string[]) {
         this.assertAlive();
         const { core } = this;
@@ -302,6 +333,19 @@ export class Session implements EmbeddingSession {
             return core.viewedIds();
         } finally {
             core.destroy(handle);
+        }
+    }
+
+    /** The template layout that the last call made and shows the counts of. */
+    private takeTemplate(mesh: Handle): Omit<TemplateLayout, "landmarks" | "notes"> {
+        const { core } = this;
+        const [collapses = 0, afterFlips = 0, inAnyShape = 0] = core.viewedDoubles();
+        try {
+            core.call("boundary_mesh_write_obj", mesh);
+            const obj = core.viewedBytes();
+            return { ...arraysOf(core, mesh), obj, removed: { collapses, afterFlips, inAnyShape } };
+        } finally {
+            core.destroy(mesh);
         }
     }
 
@@ -353,14 +397,10 @@ function landmarkIds(input: ArrayLike<number>): Uint32Array<ArrayBuffer> {
     );
 }
 
-/** Landmarks given for the inputs as they were before a repair, in the ids after it. */
-function throughRepairs(
-    given: Uint32Array,
-    layout: Loaded,
-    target: Loaded,
-): Uint32Array<ArrayBuffer> {
+/** Landmarks given for the target as it was before a repair, in the ids after it. */
+function throughTargetRepair(given: Uint32Array, target: Loaded): Uint32Array<ArrayBuffer> {
     const targetMap = target.mesh.vertexMap;
-    const ids = Uint32Array.from(given, (vertex, place) => {
+    return Uint32Array.from(given, (vertex, place) => {
         const mapped = targetMap === null ? vertex : (targetMap[vertex] ?? vertex);
         if (mapped < 0) {
             throw new LayoutError(
@@ -372,6 +412,15 @@ function throughRepairs(
         }
         return mapped;
     });
+}
+
+/** The same where the layout may have been repaired, too. */
+function throughRepairs(
+    given: Uint32Array,
+    layout: Loaded,
+    target: Loaded,
+): Uint32Array<ArrayBuffer> {
+    const ids = throughTargetRepair(given, target);
     const layoutMap = layout.mesh.vertexMap;
     // Whoever already left out the removed layout vertices is right, too.
     if (layoutMap?.length !== ids.length || ids.length === layout.vertexCount) {

@@ -100,6 +100,31 @@ export interface LandmarksInfo {
     notes: Notes;
 }
 
+export interface TemplateOptions extends LandmarkOptions {
+    /** Merges pairs of triangles into well-shaped quads. Default: triangles only. */
+    quads?: boolean;
+}
+
+/** A layout made of a target: its vertex i is landmark i. Goes into loadLayout() as it is. */
+export interface TemplateLayout {
+    /** 3 coordinates per vertex. */
+    positions: Float64Array;
+    /** Vertex ids per face, and where each face begins (as in MeshArrays). */
+    corners: Uint32Array;
+    offsets: Uint32Array;
+    /** The same as the content of an OBJ file. */
+    obj: Uint8Array;
+    /** Target vertex id (after a repair) per layout vertex. */
+    landmarks: Uint32Array;
+    /**
+     * How the target's other vertices were removed: by collapses, after edge flips, and with no
+     * regard to the shape of faces, since nothing else was left. Many of the last kind mean that
+     * the landmarks hardly describe the shape.
+     */
+    removed: { collapses: number; afterFlips: number; inAnyShape: number };
+    notes: Notes;
+}
+
 /**
  * How the search goes. Four heuristics insert the layout edges one by one and differ in the order:
  * the shortest path first (greedy), or after [PSS01] (praun), [KSG03, KS04] (kraevoy) and [SAPH04]
@@ -329,6 +354,12 @@ export interface EmbeddingSession {
      * that lies in the frame of the target.
      */
     landmarksByProximity(): Promise<LandmarksInfo>;
+    /**
+     * Makes a layout of the target alone: collapses edges until only the landmarks are left. Changes
+     * nothing in the session; hand the result to loadLayout() and its landmarks to setLandmarks().
+     * Rejected with tooFewLandmarksForSurface or templateNotReached where there is none.
+     */
+    templateLayout(landmarks: LandmarkInput, options?: TemplateOptions): Promise<TemplateLayout>;
     /** Embeds the layout; without landmarks, those by proximity are set first. */
     solve(options?: SolveOptions): Promise<EmbedResult>;
     /** The files of the last embedding that solve() returned. */
@@ -337,6 +368,12 @@ export interface EmbeddingSession {
     check(claim: EmbeddingClaim): Promise<Violation[]>;
     /** Frees everything; the session cannot be used any more. */
     dispose(): Promise<void>;
+}
+
+/** What templateLayout() makes a layout of. */
+export interface TemplateProblem {
+    target: MeshInput;
+    landmarks: LandmarkInput;
 }
 
 /** What embed() embeds where. */

@@ -25,7 +25,19 @@ export interface CheckCommand {
     repair: boolean;
 }
 
-export type Command = { name: "help" } | { name: "version" } | EmbedCommand | CheckCommand;
+export interface LayoutCommand {
+    name: "layout";
+    target: string;
+    landmarks: string;
+    output: string;
+    quads: boolean;
+    repair: boolean;
+    quiet: boolean;
+    json: boolean;
+}
+
+export type Command =
+    { name: "help" } | { name: "version" } | EmbedCommand | CheckCommand | LayoutCommand;
 
 const commonOptions = {
     help: { type: "boolean" },
@@ -46,6 +58,13 @@ const embedOptions = {
     quiet: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
 
+const layoutOptions = {
+    ...commonOptions,
+    output: { type: "string" },
+    quads: { type: "boolean" },
+    quiet: { type: "boolean" },
+} as const satisfies ParseArgsConfig["options"];
+
 /** Whether output is to be JSON, also where the rest of the line is wrong. */
 export function wantsJson(args: string[]): boolean {
     const end = args.indexOf("--");
@@ -63,6 +82,8 @@ export function parseCommand(args: string[]): Command {
             return parseEmbed(rest);
         case "check":
             return parseCheck(rest);
+        case "layout":
+            return parseLayout(rest);
         case "--help":
         case "-h":
         case "help":
@@ -124,6 +145,36 @@ function parseCheck(args: string[]): Command {
         landmarks: values.landmarks ?? null,
         repair: values.repair === true,
     };
+}
+
+function parseLayout(args: string[]): Command {
+    const { values, positionals } = parsed({
+        args,
+        options: layoutOptions,
+        allowPositionals: true,
+    });
+    if (values.help) {
+        return { name: "help" };
+    }
+    const [target] = paths(positionals, ["TARGET"]);
+    return {
+        name: "layout",
+        target,
+        landmarks: needed("--landmarks FILE", values.landmarks),
+        output: needed("--output LAYOUT.obj", values.output),
+        quads: values.quads === true,
+        repair: values.repair === true,
+        quiet: values.quiet === true,
+        json: values.json === true,
+    };
+}
+
+/** The value of an option that cannot be left out. */
+function needed(option: string, value: string | undefined): string {
+    if (value === undefined || value === "") {
+        throw javaScriptError("usage", `${option} is missing`);
+    }
+    return value;
 }
 
 /** As parseArgs(), with its errors as one sentence of ours. */

@@ -3,8 +3,11 @@ export const helpText = `Embeds a coarse layout into a triangle mesh: every layo
 Usage
   layout-embedding embed LAYOUT TARGET [options]   embed LAYOUT into TARGET (OBJ or OFF)
   layout-embedding check DIR LAYOUT TARGET         check what embed wrote to DIR
+  layout-embedding layout TARGET --landmarks FILE --output LAYOUT.obj [options]
+                                                   make a layout by collapsing TARGET's edges
+                                                   until only the landmarks are left
 
-Options of both
+Options of all
   --landmarks FILE     one 0-based target vertex id per line, in the order of the layout's
                        vertices; embed's default is by proximity, check's what embed wrote
   --repair             mend coincident and unused vertices, degenerate and duplicate faces
@@ -21,8 +24,13 @@ Options of embed
   --seed N             seed of the tie-breaking perturbation (default 1)
   --quiet              print nothing but errors
 
+Options of layout
+  --output LAYOUT.obj  the file to write; its vertices are the landmarks, in their order
+  --quads              merge pairs of triangles into well-shaped quads
+  --quiet              print nothing but errors
+
   --help, --version
 
-Exit codes: 0 a valid embedding was written, or the check accepts; 1 none found within the limits;
-2 bad input or usage; 3 proved infeasible; 4 the check refuses; 5 internal error or out of memory;
-130 interrupted, with the best result written.`;
+Exit codes: 0 a valid embedding or layout was written, or the check accepts; 1 none found within
+the limits; 2 bad input or usage; 3 proved infeasible; 4 the check refuses; 5 internal error or out
+of memory; 130 interrupted, with the best result written.`;

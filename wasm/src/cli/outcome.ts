@@ -3,7 +3,7 @@
 export const exitCodes = {
     /** Done: a valid embedding was written, or `check` accepts. */
     success: 0,
-    /** No embedding found within the limits. */
+    /** No embedding, or no layout, found within the limits. */
     noneFound: 1,
     /** Bad input or usage. */
     badInput: 2,
@@ -39,6 +39,9 @@ const ourFault = new Set([
 export function exitCodeOf(errorCode: string): number {
     if (errorCode === "damagedOutput") {
         return exitCodes.refused;
+    }
+    if (errorCode === "templateNotReached") {
+        return exitCodes.noneFound;
     }
     return ourFault.has(errorCode) ? exitCodes.internal : exitCodes.badInput;
 }
