@@ -40,12 +40,10 @@ export function compare(name, result, workLimit) {
     return differences(before, machineIndependent(result, workLimit));
 }
 
-/** Puts results into the baseline; what was not run stays. */
-export function update(entries, workLimit) {
+/** Puts a result into the baseline; all others stay. */
+export function update(name, result, workLimit) {
     const baseline = read();
-    for (const [name, result] of entries) {
-        baseline[result.algorithm] ??= {};
-        baseline[result.algorithm][name] = machineIndependent(result, workLimit);
-    }
+    baseline[result.algorithm] ??= {};
+    baseline[result.algorithm][name] = machineIndependent(result, workLimit);
     writeFileSync(file, `${JSON.stringify(baseline, null, 2)}\n`);
 }

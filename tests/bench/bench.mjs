@@ -62,24 +62,23 @@ await main(async () => {
         printResult(result);
         results.push(result);
         problems.push(...problemsOf(result, builds, workLimit, options));
+        // At once, so that a run that is stopped keeps what it has.
+        if (options.update && builds.every((build) => !result[build].error)) {
+            update(name, result[builds[0]], workLimit);
+        }
+        write(header, results, problems);
     }
     if (missing.length > 0) {
         console.log(
             `\nskipped ${missing.length} instances: ${missing[0]}${missing.length > 1 ? " and others are" : " is"} missing; LAYOUT_EMBEDDING_DATA names the folder that has them`,
         );
     }
-    if (options.update) {
-        const sound = results.filter((result) => builds.every((build) => !result[build].error));
-        update(
-            sound.map((result) => [result.name, result[builds[0]]]),
-            workLimit,
-        );
-    }
     const verdict = options.check ? judge(results) : [];
     if (options.check) {
         printVerdict(verdict);
     }
-    write(header, results, problems, verdict);
+    const file = write(header, results, problems, verdict);
+    console.log(`\nwritten to ${path.relative(process.cwd(), file)}`);
     for (const problem of problems) {
         console.error(`FAILED  ${problem}`);
     }
@@ -163,12 +162,12 @@ function problemsOf(result, builds, workLimit, options) {
     return problems;
 }
 
-function write(header, results, problems, verdict) {
+function write(header, results, problems, verdict = []) {
     const folder = path.join(root, "bench-results");
     mkdirSync(folder, { recursive: true });
     const file = path.join(folder, `${header.date.replace(/[:.]/g, "-")}.json`);
     const shown = results.map(({ instance, ...rest }) => ({ family: instance.family, ...rest }));
     const all = { ...header, results: shown, problems, criteria: verdict };
     writeFileSync(file, `${JSON.stringify(all, null, 1)}\n`);
-    console.log(`\nwritten to ${path.relative(process.cwd(), file)}`);
+    return file;
 }

@@ -28,7 +28,8 @@ namespace layout_embedding {
 namespace {
 
 // The names the package uses, in the order of the enumerations.
-constexpr const char* kAlgorithms[] = {"greedy", "praun", "kraevoy", "schreiner"};
+constexpr const char* kAlgorithms[] = {"greedy", "praun", "kraevoy", "schreiner",
+                                       "branch-and-bound"};
 constexpr const char* kStatuses[] = {"running",    "optimal",   "gapReached",  "feasible",
                                      "timeLimit",  "workLimit", "memoryLimit", "cancelled",
                                      "infeasible", "noneFound", "failed"};
@@ -222,10 +223,17 @@ Record run(EmbedJob& job)
 std::string counters_json(const EmbedCounters& counters)
 {
     return Object()
+        .put("work", counters.work)
         .put("searches", counters.searches)
         .put("expansions", counters.expansions)
         .put("fieldNodes", counters.field_nodes)
         .put("insertions", counters.insertions)
+        .put("remembered", counters.remembered)
+        .put("statesCreated", counters.states_created)
+        .put("statesExpanded", counters.states_expanded)
+        .put("statesPruned", counters.states_pruned)
+        .put("statesRedundant", counters.states_redundant)
+        .put("deadEnds", counters.dead_ends)
         .put("ties", counters.ties)
         .json();
 }

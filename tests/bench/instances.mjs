@@ -25,7 +25,6 @@ function controlMesh(name) {
         name,
         family: "real",
         shared: { layout: `data/${name}_control_mesh.obj`, target: `data/${name}.obj` },
-        quick: true,
     };
 }
 
@@ -106,7 +105,7 @@ function counterexample(layout, landmarks, level) {
  * The hull of random points of the sphere as the layout, a bumpy sphere of 20 n^2 triangles as the
  * target, and landmarks displaced by three quarters of the points' mean distance. The same points, bumps and displacements for all n.
  */
-function bumpySphere(family, name, n, landmarks, quick) {
+function bumpySphere(family, name, n, landmarks) {
     return {
         name,
         family,
@@ -122,17 +121,16 @@ function bumpySphere(family, name, n, landmarks, quick) {
                 nearestVertices(positions, displaced(points, 0.75 * apart, 2)),
             );
         },
-        quick,
     };
 }
 
 /** Growing targets: 980 triangles to a million. */
 const meshSizes = [7, 14, 28, 56, 112, 224].map((n) =>
-    bumpySphere("mesh size", `mesh ${(20 * n * n).toString()}`, n, 20, n <= 14),
+    bumpySphere("mesh size", `mesh ${(20 * n * n).toString()}`, n, 20),
 );
 /** Growing layouts on 20 480 triangles. */
 const layoutSizes = [8, 12, 20, 35, 60, 100, 200].map((count) =>
-    bumpySphere("layout size", `layout ${count}`, 32, count, count <= 12),
+    bumpySphere("layout size", `layout ${count}`, 32, count),
 );
 
 export const instances = [
