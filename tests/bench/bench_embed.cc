@@ -1,168 +1,326 @@
-// One embedding, natively, measured: bench_embed LAYOUT TARGET < LANDMARKS
+// One embedding, natively, measured for bench.mjs:
 //
-// Landmarks (one target vertex id per layout vertex) come from standard input, so that bench.mjs
-// can give this program and the package the same ones. Prints one JSON object.
+//   bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM]
+//
+// LANDMARKS is a file or `proximity`, WORK the most units of work the search may spend; without an
+// ALGORITHM it is the library's default. Prints one JSON object, as embed_wasm.mjs does.
 
-#include <chrono>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
-#include <iostream>
 #include <iterator>
+#include <optional>
 #include <string>
-#include <sys/resource.h>
+#include <utility>
+#include <vector>
 
 #include "apps/embed_job.hh"
+#include "layout/landmark_reader.hh"
+#include "layout/proximity.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
 
 namespace layout_embedding {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// The names the package uses, in the order of the enumerations.
+constexpr const char* kAlgorithms[] = {"greedy", "praun", "kraevoy", "schreiner",
+                                       "branch-and-bound"};
+constexpr const char* kStatuses[] = {"running",    "optimal",   "gapReached",  "feasible",
+                                     "timeLimit",  "workLimit", "memoryLimit", "cancelled",
+                                     "infeasible", "noneFound", "failed"};
 
-double seconds_since(Clock::time_point start)
+struct Arguments {
+    const char* layout;
+    const char* target;
+    const char* landmarks;
+    std::uint64_t work;
+    std::optional<Algorithm> algorithm;
+};
+
+double cpu_seconds()
 {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-// The names the package uses.
-const char* name(EmbedStatus status)
+// Memory as Linux counts it for this process. Not getrusage(), whose peak begins with that of the
+// process which started this one.
+double megabytes(const char* field)
 {
-    switch (status) {
-        case EmbedStatus::running:
-            return "running";
-        case EmbedStatus::optimal:
-            return "optimal";
-        case EmbedStatus::gap_reached:
-            return "gapReached";
-        case EmbedStatus::feasible:
-            return "feasible";
-        case EmbedStatus::time_limit:
-            return "timeLimit";
-        case EmbedStatus::work_limit:
-            return "workLimit";
-        case EmbedStatus::memory_limit:
-            return "memoryLimit";
-        case EmbedStatus::cancelled:
-            return "cancelled";
-        case EmbedStatus::infeasible:
-            return "infeasible";
-        case EmbedStatus::none_found:
-            return "noneFound";
-        case EmbedStatus::failed:
-            return "failed";
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.rfind(field, 0) == 0) {
+            return std::strtod(line.c_str() + std::strlen(field), nullptr) / 1024;
+        }
     }
-    return "unknown";
+    return 0;
 }
 
-const char* name(EmbedPhase phase)
+double used_megabytes()
 {
-    switch (phase) {
-        case EmbedPhase::prepare:
-            return "prepare";
-        case EmbedPhase::search:
-            return "search";
-        case EmbedPhase::realise:
-            return "realise";
-        case EmbedPhase::check:
-            return "check";
-        case EmbedPhase::done:
-            return "done";
-    }
-    return "unknown";
+    return megabytes("VmRSS:");
 }
 
-Result<PolygonMesh> read_file(const char* path)
+double peak_megabytes()
+{
+    return megabytes("VmHWM:");
+}
+
+void forget_peak()
+{
+    std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+Result<std::string> bytes_of(const char* path)
 {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
         return make_error(ErrorCode::invalidOption, std::string(path) + " cannot be read");
     }
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    return read_mesh(bytes, format_of_file_name(path), path);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
 }
 
-Result<EmbeddingProblem> load(const char* layout_path, const char* target_path)
+Result<PolygonMesh> read_file(const char* path)
 {
-    auto layout_mesh = read_file(layout_path);
+    const auto bytes = bytes_of(path);
+    if (!bytes) {
+        return bytes.error();
+    }
+    return read_mesh(*bytes, format_of_file_name(path), path);
+}
+
+Result<std::vector<Index>> landmarks_of(const Arguments& arguments, const Layout& layout,
+                                        const PolygonMesh& layout_mesh, const TriangleMesh& target)
+{
+    if (std::string(arguments.landmarks) == "proximity") {
+        return landmarks_by_proximity(layout, layout_mesh.positions, target);
+    }
+    const auto bytes = bytes_of(arguments.landmarks);
+    if (!bytes) {
+        return bytes.error();
+    }
+    auto landmarks = read_landmarks(*bytes, arguments.landmarks);
+    if (!landmarks) {
+        return landmarks.error();
+    }
+    return std::move(landmarks->vertices);
+}
+
+Result<EmbeddingProblem> load(const Arguments& arguments)
+{
+    auto layout_mesh = read_file(arguments.layout);
     if (!layout_mesh) {
         return layout_mesh.error();
     }
-    auto target_mesh = read_file(target_path);
+    auto target_mesh = read_file(arguments.target);
     if (!target_mesh) {
         return target_mesh.error();
     }
-    auto layout = Layout::from_polygons(*layout_mesh, layout_path);
+    auto layout = Layout::from_polygons(*layout_mesh, arguments.layout);
     if (!layout) {
         return layout.error();
     }
-    if (Status usable = check_surface(*target_mesh, SurfaceKind::target, target_path); !usable) {
+    if (Status usable = check_surface(*target_mesh, SurfaceKind::target, arguments.target);
+        !usable) {
         return usable.error();
     }
-    const std::vector<Index> landmarks{std::istream_iterator<Index>(std::cin), {}};
-    return make_problem(std::make_shared<Layout>(std::move(*layout)),
-                        std::make_shared<TriangleMesh>(*target_mesh), landmarks);
-}
-
-/// Seconds from each phase event to the next, as members of a JSON object.
-std::string phase_seconds(const std::vector<EmbedEvent>& events)
-{
-    std::string text;
-    const EmbedEvent* previous = nullptr;
-    for (const EmbedEvent& event : events) {
-        if (event.kind != EventKind::phase) {
-            continue;
-        }
-        if (previous != nullptr) {
-            text += (text.empty() ? "\"" : ",\"") + std::string(name(previous->phase)) +
-                    "\":" + std::to_string(event.seconds - previous->seconds);
-        }
-        previous = &event;
+    auto target = std::make_shared<TriangleMesh>(*target_mesh);
+    auto landmarks = landmarks_of(arguments, *layout, *layout_mesh, *target);
+    if (!landmarks) {
+        return landmarks.error();
     }
-    return text;
+    return make_problem(std::make_shared<Layout>(std::move(*layout)), std::move(target),
+                        std::move(*landmarks));
 }
 
-int run(const char* layout_path, const char* target_path)
+/// A JSON object in the making.
+class Object {
+public:
+    Object& put(const char* name, const std::string& json)
+    {
+        text_ += text_.empty() ? "\"" : ",\"";
+        text_ += name;
+        text_ += "\":";
+        text_ += json;
+        return *this;
+    }
+    /// null for infinity.
+    Object& put(const char* name, double number)
+    {
+        char digits[40];
+        std::snprintf(digits, sizeof digits, "%.17g", number);
+        return put(name, std::isfinite(number) ? std::string(digits) : "null");
+    }
+    Object& put(const char* name, std::uint64_t number)
+    {
+        return put(name, std::to_string(number));
+    }
+    Object& put_text(const char* name, const std::string& text)
+    {
+        std::string quoted = "\"";
+        quoted += text;
+        quoted += '"';
+        return put(name, quoted);
+    }
+    std::string json() const { return "{" + text_ + "}"; }
+
+private:
+    std::string text_;
+};
+
+/// What happened when, in CPU seconds since the job began.
+struct Record {
+    double first = std::numeric_limits<double>::infinity();
+    double best = std::numeric_limits<double>::infinity();
+    /// The end of the search.
+    double end = 0;
+    double search_megabytes = 0;
+    std::string history;
+};
+
+/// Steps the job to its end, one action at a time.
+Record run(EmbedJob& job)
 {
-    const auto start = Clock::now();
-    auto problem = load(layout_path, target_path);
+    Record record;
+    StepBudget one_action;
+    one_action.milliseconds = 0;
+    const double start = cpu_seconds();
+    const double memory = used_megabytes();
+    forget_peak();
+    std::size_t seen = 0;
+    for (bool running = true; running;) {
+        running = job.step(one_action);
+        const double now = cpu_seconds() - start;
+        for (; seen < job.events().size(); ++seen) {
+            const EmbedEvent& event = job.events()[seen];
+            if (event.kind == EventKind::phase && event.phase > EmbedPhase::search &&
+                record.end == 0) {
+                record.end = now;
+                record.search_megabytes = peak_megabytes() - memory;
+            }
+            if (event.kind == EventKind::incumbent) {
+                record.first = std::min(record.first, now);
+                record.best = now;
+            }
+            if (event.kind == EventKind::incumbent || event.kind == EventKind::bound) {
+                record.history += record.history.empty() ? "" : ",";
+                record.history += Object()
+                                      .put("cpu", now)
+                                      .put("work", event.work)
+                                      .put("cost", event.cost)
+                                      .put("lowerBound", event.lower_bound)
+                                      .json();
+            }
+        }
+    }
+    return record;
+}
+
+std::string counters_json(const EmbedCounters& counters)
+{
+    return Object()
+        .put("work", counters.work)
+        .put("searches", counters.searches)
+        .put("expansions", counters.expansions)
+        .put("fieldNodes", counters.field_nodes)
+        .put("insertions", counters.insertions)
+        .put("remembered", counters.remembered)
+        .put("statesCreated", counters.states_created)
+        .put("statesExpanded", counters.states_expanded)
+        .put("statesPruned", counters.states_pruned)
+        .put("statesRedundant", counters.states_redundant)
+        .put("deadEnds", counters.dead_ends)
+        .put("ties", counters.ties)
+        .json();
+}
+
+int run(const Arguments& arguments)
+{
+    auto problem = load(arguments);
     if (!problem) {
         std::fprintf(stderr, "%s\n", problem.error().message.c_str());
         return 2;
     }
-    const double load_seconds = seconds_since(start);
-    EmbedJob job(std::move(*problem), {});
-    while (job.step()) {
-    }
+    const double load_cpu = cpu_seconds();
+    const double load_peak = peak_megabytes();
+    EmbedOptions options;
+    options.work_limit = arguments.work;
+    options.algorithm = arguments.algorithm.value_or(options.algorithm);
+    const TriangleMesh& target = *problem->target;
+    const std::string size = Object()
+                                 .put("vertices", std::uint64_t{target.vertex_count()})
+                                 .put("triangles", std::uint64_t{target.face_count()})
+                                 .put("nodes", std::uint64_t{target.vertex_count()} +
+                                                   target.edge_count() + target.face_count())
+                                 .put("landmarks", std::uint64_t{problem->layout->vertex_count()})
+                                 .put("layoutEdges", std::uint64_t{problem->layout->edge_count()})
+                                 .json();
+    EmbedJob job(std::move(*problem), options);
+    const Record record = run(job);
+    const double total = cpu_seconds() - load_cpu;
+
     const EmbedResult& result = job.result();
     if (job.error().code != ErrorCode::none) {
         std::fprintf(stderr, "%s\n", job.error().message.c_str());
     }
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const bool found = result.exact_cost != kInfiniteLength;
-    std::printf("{\"status\":\"%s\"", name(result.status));
-    if (found) {
-        std::printf(",\"cost\":%.17g,\"exactCost\":\"%" PRIu64 "\"", result.cost,
-                    std::uint64_t{result.exact_cost});
-    } else {
-        std::printf(",\"cost\":null,\"exactCost\":null");
+    Object output;
+    if (result.exact_cost != kInfiniteLength) {
+        output.put_text("exactCost", std::to_string(result.exact_cost));
     }
-    std::printf(",\"lowerBound\":%.17g,\"exactLowerBound\":\"%" PRIu64 "\",\"gap\":%.17g",
-                result.lower_bound, std::uint64_t{result.exact_lower_bound}, result.gap);
-    std::printf(",\"phases\":{\"load\":%f%s%s}", load_seconds, job.events().empty() ? "" : ",",
-                phase_seconds(job.events()).c_str());
-    const EmbedCounters& counters = result.counters;
-    std::printf(",\"counters\":{\"searches\":%" PRIu64 ",\"expansions\":%" PRIu64
-                ",\"fieldNodes\":%" PRIu64 ",\"insertions\":%" PRIu64 ",\"ties\":%" PRIu64 "}",
-                counters.searches, counters.expansions, counters.field_nodes, counters.insertions,
-                counters.ties);
-    std::printf(",\"seconds\":%f,\"cpuSeconds\":%f,\"peakMegabytes\":%.1f}\n", seconds_since(start),
-                static_cast<double>(std::clock()) / CLOCKS_PER_SEC,
-                static_cast<double>(usage.ru_maxrss) / 1024);
+    output.put_text("algorithm", kAlgorithms[static_cast<std::size_t>(options.algorithm)])
+        .put_text("status", kStatuses[static_cast<std::size_t>(result.status)])
+        .put("valid", std::string(result.refined ? "true" : "false"))
+        .put("cost", result.cost)
+        .put("lowerBound", result.lower_bound)
+        .put("gap", result.gap)
+        .put_text("exactLowerBound", std::to_string(result.exact_lower_bound))
+        .put("size", size)
+        .put("counters", counters_json(result.counters))
+        .put("cpu", Object()
+                        .put("load", load_cpu)
+                        .put("first", record.first)
+                        .put("best", record.best)
+                        .put("end", record.end)
+                        .put("total", total)
+                        .json())
+        .put("memory", Object()
+                           .put("search", record.search_megabytes)
+                           .put("peak", std::max(load_peak, peak_megabytes()))
+                           .json())
+        .put("history", "[" + record.history + "]");
+    std::printf("%s\n", output.json().c_str());
     return 0;
+}
+
+std::optional<Algorithm> algorithm_of(const std::string& name)
+{
+    for (std::size_t i = 0; i < std::size(kAlgorithms); ++i) {
+        if (name == kAlgorithms[i]) {
+            return static_cast<Algorithm>(i);
+        }
+    }
+    return std::nullopt;
+}
+
+int run(int count, char** words)
+{
+    if (count < 5 || count > 6) {
+        std::fprintf(stderr, "usage: bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM]\n");
+        return 2;
+    }
+    Arguments arguments{words[1], words[2], words[3], std::strtoull(words[4], nullptr, 10), {}};
+    if (count == 6) {
+        arguments.algorithm = algorithm_of(words[5]);
+        if (!arguments.algorithm) {
+            std::fprintf(stderr, "there is no algorithm %s\n", words[5]);
+            return 2;
+        }
+    }
+    return run(arguments);
 }
 
 }  // namespace
@@ -170,9 +328,5 @@ int run(const char* layout_path, const char* target_path)
 
 int main(int argc, char** argv)
 {
-    if (argc != 3) {
-        std::fprintf(stderr, "usage: bench_embed LAYOUT TARGET < LANDMARKS\n");
-        return 2;
-    }
-    return layout_embedding::run(argv[1], argv[2]);
+    return layout_embedding::run(argc, argv);
 }

@@ -1,0 +1,120 @@
+// What --check demands: one row per criterion. Times are CPU seconds.
+//
+// `of` picks the instances, `value` what is measured (Infinity where nothing was reached), `limit`
+// what it may be, a number or a function of the result. A criterion holds if all its instances do.
+
+// The public reference implementation of the paper: 60 s of CPU time, seeds 1 to 10.
+const referenceCosts = {
+    sphere5: [20.0949, 21.418, 20.0952, 23.371, 19.804, 21.78, 22.5186, 18.0209, 18.0592, 20.2605],
+    sphere6: [17.2814, 19.7266, 21.6922, 23.301, 26.093, 18.7329, 26.3938, 16.4937, 17.6006, 20.0778],
+}; // prettier-ignore
+
+const family =
+    (...names) =>
+    (instance) =>
+        names.includes(instance.family);
+const named = (name) => (instance) => instance.name === name;
+
+/** Seconds of search until the gap was proved to be at most 1 %. */
+const proved = ({ native }) => (native.valid && native.gap <= 0.01 ? native.cpu.end : Infinity);
+/** From the start of reading to a checked embedding, without improving the first one. */
+const firstValid = ({ wasm }) =>
+    wasm.valid ? wasm.cpu.load + wasm.cpu.first + wasm.cpu.total - wasm.cpu.end : Infinity;
+const ratio = ({ native, wasm }) => wasm.cpu.total / native.cpu.total;
+
+export const criteria = [
+    {
+        title: "cubes on sphere5 proved to 1 %",
+        needs: ["native"],
+        of: family("sphere5"),
+        value: proved,
+        limit: 2,
+        unit: "s",
+    },
+    {
+        title: "cubes on sphere6 proved to 1 %",
+        needs: ["native"],
+        of: family("sphere6"),
+        value: proved,
+        limit: 10,
+        unit: "s",
+    },
+    {
+        title: "cubes: cost relative to the reference",
+        needs: ["native"],
+        of: family("sphere5", "sphere6"),
+        value: ({ native, instance }) =>
+            (native.cost ?? Infinity) / referenceCosts[instance.family][instance.seed - 1],
+        limit: 1.005,
+        unit: "",
+    },
+    {
+        title: "hull and icosahedron, p10 to p30, proved to 1 %",
+        needs: ["native"],
+        of: (instance) => family("hull", "ico")(instance) && instance.displacement <= 30,
+        value: proved,
+        limit: 10,
+        unit: "s",
+    },
+    {
+        title: "Spot's 188-vertex layout proved to 1 %",
+        needs: ["native"],
+        of: named("spot"),
+        value: proved,
+        limit: 1,
+        unit: "s",
+    },
+    {
+        // Below that, starting and tiering up are most of what is measured.
+        title: "WASM relative to native, from 0.5 s on",
+        needs: ["native", "wasm"],
+        of: ({ native }) => native.cpu.total >= 0.5,
+        ofResult: true,
+        value: ratio,
+        limit: 1.25,
+        unit: "",
+    },
+    {
+        title: "memory of the search beyond distance fields, up to 50k vertices",
+        needs: ["native"],
+        of: ({ native }) => native.size.vertices <= 50_000,
+        ofResult: true,
+        value: ({ native }) =>
+            native.memory.search - (4 * native.size.nodes * native.size.landmarks) / 2 ** 20,
+        limit: 64,
+        unit: "MB",
+    },
+    {
+        title: "a million triangles: first valid embedding in WASM, with reading",
+        needs: ["wasm"],
+        of: named("mesh 1003520"),
+        value: firstValid,
+        limit: 15,
+        unit: "s",
+    },
+    {
+        title: "a million triangles: memory in WASM",
+        needs: ["wasm"],
+        of: named("mesh 1003520"),
+        value: ({ wasm }) => wasm.memory.peak,
+        limit: 1200,
+        unit: "MB",
+    },
+];
+
+/**
+ * Judges results: per criterion { title, limit, unit, passed, cases }, a case being
+ * { name, value, passed }. Without cases nothing it is about was run.
+ */
+export function judge(results) {
+    return criteria.map(({ title, needs, of, ofResult, value, limit, unit }) => {
+        const cases = results
+            .filter((result) => needs.every((where) => result[where] && !result[where].error))
+            .filter((result) => of(ofResult ? result : result.instance))
+            .map((result) => {
+                const measured = value(result);
+                return { name: result.name, value: measured, passed: measured <= limit };
+            });
+        return { title, limit, unit, cases, passed: cases.every(({ passed }) => passed) };
+    });
+}
