@@ -64,7 +64,7 @@ struct EmbedOptions {
 };
 
 /// A few seconds on the machines of today.
-inline constexpr std::uint64_t kDefaultPatience = 40'000'000;
+inline constexpr std::uint64_t kDefaultPatience = 15'000'000;
 
 enum class EventKind : std::uint32_t {
     /// Another phase began.

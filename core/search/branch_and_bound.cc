@@ -17,7 +17,7 @@ namespace {
 // this many expansions.
 std::uint64_t child_work(Index edge_count)
 {
-    return 2 + edge_count / 32;
+    return 4 + edge_count / 12;
 }
 
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS

@@ -7,7 +7,7 @@ namespace layout_embedding {
 SwirlTest::SwirlTest(const Strands& strands)
     : strands_(strands),
       visits_(strands.graph().node_count(), kNone),
-      distances_(strands.graph().vertex_count(), kInfiniteLength)
+      distances_(strands.graph().node_count(), kInfiniteLength)
 {}
 
 bool SwirlTest::suspects(Index layout_edge, std::span<const Index> darts)

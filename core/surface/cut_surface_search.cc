@@ -32,6 +32,7 @@ void CutSurfaceSearch::start(Index layout_edge, Length limit)
     ++search_count_;
     layout_edge_ = layout_edge;
     limit_ = limit;
+    skipped_ = kInfiniteLength;
     met_.clear();
     start_ = strands_.landmark_node(layout.tail(2 * layout_edge));
     goal_ = strands_.landmark_node(layout.head(2 * layout_edge));
@@ -60,8 +61,8 @@ void CutSurfaceSearch::start(Index layout_edge, Length limit)
         const Index strands = strands_.strand_count(start_, d);
         for (Index slot = 0; slot <= strands; ++slot) {
             if (strands_.region(start_, d, slot) == sector) {
-                weights_.empty() ? relax<false>(kNone, start_, d, slot, 0)
-                                 : relax<true>(kNone, start_, d, slot, 0);
+                weights_.empty() ? relax<false>(kNone, start_, d, slot, strands, 0)
+                                 : relax<true>(kNone, start_, d, slot, strands, 0);
             }
         }
     }
@@ -71,26 +72,31 @@ CutSurfaceSearch::Outcome CutSurfaceSearch::run(std::uint64_t max_expansions)
 {
     // Goes on until the queue has passed the goal: only then have all walks of the same length been
     // seen.
-    while (!queue_.empty() && queue_.front().estimate <= goal_distance_) {
-        const QueueItem item = queue_.front();
+    while (!queue_.empty() && queue_.top().estimate <= goal_distance_) {
+        const QueueItem item = queue_.top();
         Label& label = labels_[item.state];
         if ((label.mark & kClosed) == 0) {
             lower_bound_ = std::max(lower_bound_, item.estimate);
-            if (item.estimate >= limit_) {
-                return Outcome::exceeded;
-            }
             if (max_expansions-- == 0) {
                 return Outcome::running;
             }
             label.mark |= kClosed;
             ++expansion_count_;
-            std::pop_heap(queue_.begin(), queue_.end());
-            queue_.pop_back();
+            queue_.pop();
+            if (!queue_.empty()) {
+                // Most likely the next to be expanded: its darts are far away in memory.
+                strands_.graph().prefetch_darts(strands_.node_of_state(queue_.top().state));
+            }
             weights_.empty() ? expand<false>(item.state) : expand<true>(item.state);
         } else {
-            std::pop_heap(queue_.begin(), queue_.end());
-            queue_.pop_back();
+            queue_.pop();
         }
+    }
+    if (goal_distance_ >= limit_ && skipped_ != kInfiniteLength) {
+        // Everything below was expanded; what was skipped could lead to the goal, or the goal lies
+        // at the limit itself.
+        lower_bound_ = std::max(lower_bound_, std::min(skipped_, goal_distance_));
+        return Outcome::exceeded;
     }
     lower_bound_ = goal_distance_;
     if (goal_distance_ == kInfiniteLength) {
@@ -109,7 +115,7 @@ void CutSurfaceSearch::expand(Index state)
     const Index end = graph.first_dart(node + 1);
     if (!strands_.is_touched(node)) {
         for (Index d = graph.first_dart(node); d < end; ++d) {
-            relax<kWeighted>(state, node, d, 0, distance);
+            relax<kWeighted>(state, node, d, 0, 0, distance);
         }
         return;
     }
@@ -125,13 +131,15 @@ void CutSurfaceSearch::expand(Index state)
     for (Index d = graph.first_dart(node); d < end; ++d) {
         const Index slot = strands_.slot_in_region(node, d, region);
         if (slot != kNone) {
-            relax<kWeighted>(state, node, d, slot, distance);
+            relax<kWeighted>(state, node, d, slot, strands_.strand_count(node, d), distance);
         }
     }
 }
 
+// `strand_count`: the strands over the dart's edge.
 template <bool kWeighted>
-void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slot, Length distance)
+void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slot,
+                             Index strand_count, Length distance)
 {
     const Dart& along = strands_.graph().dart(dart);
     const Length reached =
@@ -141,8 +149,9 @@ void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slo
     if (is_landmark && along.head != goal_) {
         return;
     }
-    const Index twin_slot = strands_.strand_count(tail, dart) - slot;
-    const Index region = strands_.region(along.head, along.twin, twin_slot);
+    const Index region = strands_.is_touched(along.head)
+                             ? strands_.region(along.head, along.twin, strand_count - slot)
+                             : 0;
     if (is_landmark) {
         if (region != goal_sector_) {
             return;
@@ -157,7 +166,7 @@ void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slo
         }
         return;
     }
-    const Index state = strands_.state(along.head, region);
+    const Index state = region == 0 ? along.head : strands_.state(along.head, region);
     Label& label = labels_[state];
     if (label.mark / kFlags == number_) {
         if (reached > label.distance) {
@@ -168,9 +177,16 @@ void CutSurfaceSearch::relax(Index from_state, Index tail, Index dart, Index slo
             return;
         }
     }
+    const Length estimate = kWeighted ? reached : reached + field_->bound(along.head);
+    if (estimate > goal_distance_) {
+        return;
+    }
+    if (estimate >= limit_) {
+        skipped_ = std::min(skipped_, estimate);
+        return;
+    }
     label = {reached, dart, number_ * kFlags};
-    queue_.push_back({kWeighted ? reached : reached + field_->bound(along.head), state});
-    std::push_heap(queue_.begin(), queue_.end());
+    queue_.push({estimate, state});
 }
 
 std::vector<Index> CutSurfaceSearch::blockers() const

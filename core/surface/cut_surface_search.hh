@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/quad_heap.hh"
 #include "base/types.hh"
 #include "surface/distance_field.hh"
 #include "surface/strands.hh"
@@ -70,10 +71,9 @@ private:
     struct QueueItem {
         Length estimate;
         Index state;
-        /// A strict total order that makes the heap's front the smallest.
         friend bool operator<(const QueueItem& a, const QueueItem& b)
         {
-            return a.estimate != b.estimate ? a.estimate > b.estimate : a.state > b.state;
+            return a.estimate != b.estimate ? a.estimate < b.estimate : a.state < b.state;
         }
     };
 
@@ -81,7 +81,8 @@ private:
     template <bool kWeighted>
     void expand(Index state);
     template <bool kWeighted>
-    void relax(Index from_state, Index tail, Index dart, Index slot, Length distance);
+    void relax(Index from_state, Index tail, Index dart, Index slot, Index strand_count,
+               Length distance);
     void collect_walk();
 
     const Strands& strands_;
@@ -97,6 +98,7 @@ private:
     bool goal_tied_ = false;
     Length lower_bound_ = 0;
     Length limit_ = kInfiniteLength;
+    Length skipped_ = kInfiniteLength;  // smallest estimate at or above the limit
     Index layout_edge_ = kNone;
     std::vector<Index> met_;                  // embedded edges that border expanded regions
     std::vector<std::uint32_t> met_numbers_;  // per layout edge: the search that met it last
@@ -105,7 +107,7 @@ private:
     std::uint64_t search_count_ = 0;
     std::uint64_t expansion_count_ = 0;
     std::vector<Label> labels_;  // per state
-    std::vector<QueueItem> queue_;
+    QuadHeap<QueueItem> queue_;
     std::vector<Index> darts_;
     bool tied_ = false;
 };

@@ -33,6 +33,38 @@ private:
     Random random_;
 };
 
+/// The lowest 20 bits of x, two zeros between any two of them.
+std::uint64_t spread(std::uint64_t x)
+{
+    x &= 0xfffff;
+    x = (x | x << 32U) & 0x001f00000000ffff;
+    x = (x | x << 16U) & 0x001f0000ff0000ff;
+    x = (x | x << 8U) & 0x100f00f00f00f00f;
+    x = (x | x << 4U) & 0x10c30c30c30c30c3;
+    return (x | x << 2U) & 0x1249249249249249;
+}
+
+/// The faces of a mesh along a space-filling curve (Morton order of their first corners), so that
+/// elements near each other get numbers near each other.
+std::vector<Index> faces_along_curve(const TriangleMesh& mesh, const Vec3& low, const Vec3& high)
+{
+    const double extent = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
+    std::vector<std::pair<std::uint64_t, Index>> keys;
+    keys.reserve(mesh.face_count());
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 p = (mesh.position(mesh.face(f)[0]) - low) / extent * 0xfffff;
+        const auto code = [&](int axis) { return spread(static_cast<std::uint64_t>(p[axis])); };
+        keys.emplace_back(code(0) | code(1) << 1U | code(2) << 2U, f);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<Index> faces;
+    faces.reserve(keys.size());
+    for (const auto& [key, f] : keys) {
+        faces.push_back(f);
+    }
+    return faces;
+}
+
 }  // namespace
 
 PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& options)
@@ -45,17 +77,27 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
     graph.vertex_count_ = vertices;
     graph.edge_count_ = edges;
 
-    graph.positions_.reserve(nodes);
-    graph.positions_ = target.positions();
+    Vec3 low = target.position(0);
+    Vec3 high = low;
+    for (const Vec3& p : target.positions()) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    graph.number_nodes(target, faces_along_curve(target, low, high));
+
+    graph.positions_.resize(nodes);
+    for (Index v = 0; v < vertices; ++v) {
+        graph.positions_[graph.node_of_vertex(v)] = target.position(v);
+    }
     for (Index e = 0; e < edges; ++e) {
         const Index h = target.halfedge(e);
-        graph.positions_.push_back(
-            0.5 * (target.position(target.tail(h)) + target.position(target.head(h))));
+        graph.positions_[graph.node_of_edge(e)] =
+            0.5 * (target.position(target.tail(h)) + target.position(target.head(h)));
     }
     for (Index f = 0; f < faces; ++f) {
         const auto [a, b, c] = target.face(f);
-        graph.positions_.push_back((target.position(a) + target.position(b) + target.position(c)) /
-                                   3.0);
+        graph.positions_[graph.node_of_face(f)] =
+            (target.position(a) + target.position(b) + target.position(c)) / 3.0;
     }
 
     // The place of each halfedge among those that leave its tail.
@@ -70,27 +112,23 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
             ranks[h] = rank++;
             h = target.rotated_ccw(h);
         } while (h != first && h != kNone);
-        graph.boundary_[v] = h == kNone;
-        graph.dart_offsets_[v + 1] = 2 * rank + (h == kNone ? 1 : 0);
+        const Index node = graph.node_of_vertex(v);
+        graph.boundary_[node] = h == kNone;
+        graph.dart_offsets_[node + 1] = 2 * rank + (h == kNone ? 1 : 0);
     }
     for (Index e = 0; e < edges; ++e) {
         const bool boundary = target.is_boundary_edge(e);
-        graph.boundary_[vertices + e] = boundary;
-        graph.dart_offsets_[vertices + e + 1] = boundary ? 3 : 4;
+        const Index node = graph.node_of_edge(e);
+        graph.boundary_[node] = boundary;
+        graph.dart_offsets_[node + 1] = boundary ? 3 : 4;
     }
     for (Index f = 0; f < faces; ++f) {
-        graph.dart_offsets_[vertices + edges + f + 1] = 6;
+        graph.dart_offsets_[graph.node_of_face(f) + 1] = 6;
     }
     for (Index node = 0; node < nodes; ++node) {
         graph.dart_offsets_[node + 1] += graph.dart_offsets_[node];
     }
 
-    Vec3 low = target.position(0);
-    Vec3 high = low;
-    for (const Vec3& p : target.positions()) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
     graph.unit_ = (high - low).norm() / kDiagonal;
     LengthScale scaled(graph.unit_, options);
 
@@ -106,21 +144,21 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
     for (Index e = 0; e < edges; ++e) {
         const Index h = target.halfedge(e);
         const Index twin = target.opposite(h);
-        const Index tail = target.tail(h);
-        const Index head = target.head(h);
-        const double half = 0.5 * (target.position(tail) - target.position(head)).norm();
-        const Index midpoint = vertices + e;
+        const Index tail = graph.node_of_vertex(target.tail(h));
+        const Index head = graph.node_of_vertex(target.head(h));
+        const double half = 0.5 * (graph.positions_[tail] - graph.positions_[head]).norm();
+        const Index midpoint = graph.node_of_edge(e);
         join(tail, 2 * ranks[h], midpoint, 2, scaled(half));
         // At a boundary vertex the last dart belongs to the edge that has no outgoing halfedge.
         const Index head_place = twin != kNone ? 2 * ranks[twin] : graph.degree(head) - 1;
         join(head, head_place, midpoint, 0, scaled(half));
     }
     for (Index h = 0; h < target.halfedge_count(); ++h) {
-        const Index centroid = vertices + edges + TriangleMesh::face_of(h);
+        const Index centroid = graph.node_of_face(TriangleMesh::face_of(h));
         const Index place = 2 * (h % 3);
-        const Index corner = target.tail(h);
+        const Index corner = graph.node_of_vertex(target.tail(h));
         const Index e = target.edge(h);
-        const Index midpoint = vertices + e;
+        const Index midpoint = graph.node_of_edge(e);
         const Vec3& center = graph.positions_[centroid];
         join(corner, 2 * ranks[h] + 1, centroid, place,
              scaled((graph.positions_[corner] - center).norm()));
@@ -128,6 +166,27 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
              scaled((graph.positions_[midpoint] - center).norm()));
     }
     return graph;
+}
+
+/// Face by face: corners and midpoints that have no number yet, then the centroid.
+void PathGraph::number_nodes(const TriangleMesh& target, const std::vector<Index>& faces)
+{
+    const std::size_t nodes = std::size_t{vertex_count_} + edge_count_ + target.face_count();
+    nodes_of_elements_.assign(nodes, kNone);
+    elements_of_nodes_.reserve(nodes);
+    const auto number = [&](Index element) {
+        if (nodes_of_elements_[element] == kNone) {
+            nodes_of_elements_[element] = static_cast<Index>(elements_of_nodes_.size());
+            elements_of_nodes_.push_back(element);
+        }
+    };
+    for (const Index f : faces) {
+        for (Index corner = 0; corner < 3; ++corner) {
+            number(target.face(f)[corner]);
+            number(vertex_count_ + target.edge(3 * f + corner));
+        }
+        number(vertex_count_ + edge_count_ + f);
+    }
 }
 
 void PathGraph::set_lengths(std::span<const Length> lengths)
@@ -141,19 +200,20 @@ std::uint64_t PathGraph::estimate_bytes(Index vertices, Index edges, Index faces
 {
     const std::uint64_t nodes = std::uint64_t{vertices} + edges + faces;
     const std::uint64_t darts = 2 * (2 * std::uint64_t{edges} + 6 * std::uint64_t{faces});
-    return darts * sizeof(Dart) + nodes * (sizeof(Index) + sizeof(Vec3)) +
+    return darts * sizeof(Dart) + nodes * (3 * sizeof(Index) + sizeof(Vec3)) +
            3 * std::uint64_t{faces} * sizeof(Index);
 }
 
 NodeElement PathGraph::element(Index node) const
 {
-    if (node < vertex_count_) {
-        return {NodeKind::vertex, node};
+    const Index element = elements_of_nodes_[node];
+    if (element < vertex_count_) {
+        return {NodeKind::vertex, element};
     }
-    if (node < vertex_count_ + edge_count_) {
-        return {NodeKind::edge_midpoint, node - vertex_count_};
+    if (element < vertex_count_ + edge_count_) {
+        return {NodeKind::edge_midpoint, element - vertex_count_};
     }
-    return {NodeKind::face_centroid, node - vertex_count_ - edge_count_};
+    return {NodeKind::face_centroid, element - vertex_count_ - edge_count_};
 }
 
 double PathGraph::to_units(Length length) const

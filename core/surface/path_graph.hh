@@ -30,7 +30,8 @@ struct Dart {
 /// whose edges paths run along. It never changes during a search.
 ///
 /// Darts are numbered so that those leaving a node are consecutive and in counter-clockwise order;
-/// at a node on the target's boundary the hole lies between the last dart and the first.
+/// at a node on the target's boundary the hole lies between the last dart and the first. Nodes are
+/// numbered along a space-filling curve: neighbours lie near each other in memory.
 ///
 /// Lengths are exact integers, made unequal by a seeded perturbation: sums are exact, shortest
 /// paths unique but for ties that a search detects. unit() converts to the target's units.
@@ -63,26 +64,59 @@ public:
     Index twin(Index d) const { return darts_[d].twin; }
     /// The first dart that leaves the node; they end before first_dart(node + 1).
     Index first_dart(Index node) const { return dart_offsets_[node]; }
-    Index degree(Index node) const { return dart_offsets_[node + 1] - dart_offsets_[node]; }
+    /// Has the darts that leave a node brought near.
+    void prefetch_darts(Index node) const
+    {
+#if defined(__GNUC__)
+        const Dart* darts = darts_.data() + dart_offsets_[node];
+        __builtin_prefetch(darts);
+        __builtin_prefetch(darts + 4);
+#endif
+    }
+    Index degree(Index node) const
+    {
+        return dart_offsets_[node + 1] - dart_offsets_[node];
+    }
     /// Whether the node lies on the target's boundary.
-    bool is_boundary(Index node) const { return boundary_[node]; }
+    bool is_boundary(Index node) const
+    {
+        return boundary_[node];
+    }
 
     NodeElement element(Index node) const;
-    /// Nodes that are vertices of the target; they come first.
-    Index vertex_count() const { return vertex_count_; }
-    Index node_of_vertex(Index vertex) const { return vertex; }
-    Index node_of_edge(Index edge) const { return vertex_count_ + edge; }
-    Index node_of_face(Index face) const { return vertex_count_ + edge_count_ + face; }
-    const Vec3& position(Index node) const { return positions_[node]; }
+    Index node_of_vertex(Index vertex) const
+    {
+        return nodes_of_elements_[vertex];
+    }
+    Index node_of_edge(Index edge) const
+    {
+        return nodes_of_elements_[vertex_count_ + edge];
+    }
+    Index node_of_face(Index face) const
+    {
+        return nodes_of_elements_[vertex_count_ + edge_count_ + face];
+    }
+    const Vec3& position(Index node) const
+    {
+        return positions_[node];
+    }
 
     /// The length of the integer 1 in the target's units.
-    double unit() const { return unit_; }
+    double unit() const
+    {
+        return unit_;
+    }
     /// A length in the target's units, infinity for kInfiniteLength.
     double to_units(Length length) const;
 
 private:
+    void number_nodes(const TriangleMesh& target, const std::vector<Index>& faces);
+
     Index vertex_count_ = 0;
     Index edge_count_ = 0;
+    // Elements: vertices, then edges, then faces of the target.
+    std::vector<Index> nodes_of_elements_;
+    std::vector<Index> elements_of_nodes_;
     std::vector<Index> dart_offsets_;  // #nodes + 1
     std::vector<Dart> darts_;
     std::vector<Vec3> positions_;  // per node

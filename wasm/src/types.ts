@@ -163,7 +163,7 @@ export interface SolveOptions {
     timeLimit?: number;
     /**
      * Units of work for the search, each about the expansion of a node; reproducible. Default: none
-     * for the heuristics; branch and bound stops 40 million units after its first embedding, a few
+     * for the heuristics; branch and bound stops 15 million units after its first embedding, a few
      * seconds. Infinity counts as not given.
      */
     workLimit?: number;
