@@ -60,10 +60,8 @@ public:
           mesh_(surface.positions, surface.corners),
           locked_(mesh_.vertex_count(), false)
     {
-        step_ = 0.05 * options.cell;
         normals_.resize(mesh_.vertex_count());
         for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-            normals_[v] = solid_.normal(mesh_.positions[v], step_);
             settle(v);
         }
     }
@@ -75,6 +73,7 @@ public:
         find_sizes(wanted);
         for (int i = 0; i < 3; ++i) {
             iterate();
+            compact();
         }
         for (const Anchor& anchor : anchors) {
             anchors_.push_back(insert(anchor));
@@ -92,6 +91,22 @@ public:
         for (int i = 0; i < 3; ++i) {
             mend();
         }
+    }
+
+    /// The grid left many more vertices than are wanted.
+    void compact()
+    {
+        const std::vector<Index> map = mesh_.compact();
+        for (Index v = 0; v < map.size(); ++v) {
+            if (map[v] != kNone) {
+                normals_[map[v]] = normals_[v];
+                sizes_[map[v]] = sizes_[v];
+                locked_[map[v]] = locked_[v];
+            }
+        }
+        normals_.resize(mesh_.vertex_count());
+        sizes_.resize(mesh_.vertex_count());
+        locked_.resize(mesh_.vertex_count());
     }
 
     Remeshed result()
@@ -121,22 +136,24 @@ private:
     {
         Vec3& p = mesh_.positions[v];
         const bool rim = mesh_.is_boundary(v);
-        for (int i = 0; i < (rim ? 4 : 2); ++i) {
-            Vec3 direction = normals_[v];
+        for (int i = 0; i < 5; ++i) {
             if (rim) {
                 p -= (p - cut_->origin).dot(cut_->normal) * cut_->normal;
+            }
+            const Solid::Value value = solid_.value(p);
+            normals_[v] = value.normal;
+            Vec3 direction = value.normal;
+            if (rim) {
                 direction -= direction.dot(cut_->normal) * cut_->normal;
                 const double slope = direction.squaredNorm();
                 direction = slope > 0.01 ? Vec3(direction / slope) : Vec3(Vec3::Zero());
             }
-            const double d = solid_.distance(p);
-            // Outside the reach of the linear model a step must not be trusted.
-            p -= std::clamp(d, -options_.cell, options_.cell) * direction;
-            if (std::abs(d) < 0.05 * step_) {
+            // Far away a step must not be trusted.
+            p -= std::clamp(value.distance, -options_.cell, options_.cell) * direction;
+            if (std::abs(value.distance) < 0.05 * options_.cell) {
                 break;
             }
         }
-        normals_[v] = solid_.normal(p, step_);
     }
 
     /// Edge lengths that follow the radius of curvature, within limits, change slowly, and make
@@ -239,9 +256,8 @@ private:
             const Index a = mesh_.tail(h);
             const Index b = mesh_.head(h);
             const double size = wanted_length(h);
-            const Vec3 normal = (normals_[a] + normals_[b]).normalized();
             const Index m = mesh_.split_edge(h, 0.5 * (position(a) + position(b)));
-            add_vertex_data(size, normal.allFinite() ? normal : normals_[a]);
+            add_vertex_data(size, normals_[a]);
             settle(m);
         }
     }
@@ -377,7 +393,7 @@ private:
     {
         double best = std::numeric_limits<double>::infinity();
         Index place = kNone;
-        const Vec3 normal = solid_.normal(anchor.position, step_);
+        const Vec3 normal = solid_.value(anchor.position).normal;
         for (Index f = 0; f < mesh_.face_count(); ++f) {
             if (!mesh_.has_face(f)) {
                 continue;
@@ -543,7 +559,6 @@ private:
     std::vector<double> sizes_;
     std::vector<char> locked_;
     std::vector<Index> anchors_;
-    double step_ = 0.0;
 };
 
 }  // namespace

@@ -9,17 +9,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Smooth minimum with a cubic blend (Quilez, "Smooth minimum"): equals the minimum where the two
-/// differ by k or more.
-double smooth_min(double a, double b, double k)
+/// Smooth minimum with a cubic blend (Quilez, "Smooth minimum"): the minimum where the two differ by
+/// k or more. Returns it with the share of b in its gradient.
+std::array<double, 2> smooth_min(double a, double b, double k)
 {
-    const double smaller = a < b ? a : b;
     const double difference = std::abs(a - b);
     if (difference >= k) {
-        return smaller;
+        return a < b ? std::array{a, 0.0} : std::array{b, 1.0};
     }
     const double h = (k - difference) / k;
-    return smaller - h * h * h * k * (1.0 / 6.0);
+    const double share = 0.5 * h * h;
+    const double value = (a < b ? a : b) - h * h * h * k * (1.0 / 6.0);
+    return {value, a < b ? share : 1.0 - share};
 }
 
 double blend_radius(const Blend& blend, const Vec3& point)
@@ -34,10 +35,12 @@ double blend_radius(const Blend& blend, const Vec3& point)
     return x <= 0.0 ? 0.0 : blend.radius * x * x * (3.0 - 2.0 * x);
 }
 
-/// Signed distance to a simple polygon.
-double polygon_distance(const Profile& polygon, double x, double y)
+/// Signed distance to a simple polygon and its gradient.
+std::array<double, 3> polygon_value(const Profile& polygon, double x, double y)
 {
     double best = kInfinity;
+    double best_x = 0.0;
+    double best_y = 0.0;
     bool inside = false;
     for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
         const double ex = polygon[j][0] - polygon[i][0];
@@ -47,12 +50,19 @@ double polygon_distance(const Profile& polygon, double x, double y)
         const double t = std::clamp((wx * ex + wy * ey) / (ex * ex + ey * ey), 0.0, 1.0);
         const double bx = wx - t * ex;
         const double by = wy - t * ey;
-        best = std::min(best, bx * bx + by * by);
+        if (bx * bx + by * by < best) {
+            best = bx * bx + by * by;
+            best_x = bx;
+            best_y = by;
+        }
         if ((polygon[i][1] > y) != (polygon[j][1] > y) && wx < ex * wy / ey) {
             inside = !inside;
         }
     }
-    return inside ? -std::sqrt(best) : std::sqrt(best);
+    const double distance = std::sqrt(best);
+    const double sign = inside ? -1.0 : 1.0;
+    const double scale = distance > 0.0 ? sign / distance : 0.0;
+    return {sign * distance, scale * best_x, scale * best_y};
 }
 
 template <typename T>
@@ -135,6 +145,8 @@ void Solid::add_tube(const std::vector<Knot>& samples, const Blend& blend, const
     part.origin = samples.front().position;
     part.to_part = flat.scale.cwiseInverse().asDiagonal() * flat.frame.axes.transpose();
     part.rigid = flat.scale == Vec3::Ones();
+    part.least_scale = flat.scale.minCoeff();
+    part.largest_scale = flat.scale.maxCoeff();
     Vec3 lower = Vec3::Constant(kInfinity);
     Vec3 upper = -lower;
     const double widest = flat.scale.maxCoeff();
@@ -145,6 +157,8 @@ void Solid::add_tube(const std::vector<Knot>& samples, const Blend& blend, const
         cone.radius_a = samples[i].radius;
         cone.radius_b = samples[i + 1].radius;
         cone.length = (b - cone.a).norm();
+        cone.center = 0.5 * (cone.a + b);
+        cone.bound = 0.5 * cone.length + std::max(cone.radius_a, cone.radius_b);
         cone.axis = cone.length > 0.0 ? Vec3((b - cone.a) / cone.length) : Vec3::UnitX();
         const double slope = cone.radius_a - cone.radius_b;
         if (cone.length > std::abs(slope)) {
@@ -240,120 +254,110 @@ void Solid::cut_last()
     parts_.back().cut = true;
 }
 
-double Solid::part_distance(const Part& part, const Vec3& point) const
+Solid::Value Solid::cones_value(const Part& part, const Vec3& p, double limit)
 {
-    const Vec3 p = part.to_part * (point - part.origin);
-    if (part.kind == Kind::revolution) {
-        const double radius = std::sqrt(p.x() * p.x() + p.z() * p.z());
-        return polygon_distance(part.profile, radius, p.y()) - part.rounding;
-    }
-    if (part.kind == Kind::extrusion) {
-        const double side = polygon_distance(part.profile, p.x(), p.y());
-        const double cap = std::abs(p.z()) - part.half_height;
-        const double a = std::max(side, 0.0);
-        const double b = std::max(cap, 0.0);
-        return std::min(std::max(side, cap), 0.0) + std::sqrt(a * a + b * b) - part.rounding;
-    }
-    double best = kInfinity;
+    // Before it is scaled back.
+    double best = limit / (limit > 0.0 ? part.least_scale : part.largest_scale);
+    const Cone* best_cone = nullptr;
     Vec3 best_normal = Vec3::UnitX();
     for (const Cone& cone : part.cones) {
+        const double reach = best + cone.bound;
+        if (best < kInfinity &&
+            (reach <= 0.0 || (p - cone.center).squaredNorm() > reach * reach)) {
+            continue;
+        }
         const Vec3 from_a = p - cone.a;
         const double along = from_a.dot(cone.axis);
         const Vec3 across = from_a - along * cone.axis;
         const double radial = across.norm();
         const double foot = cone.cosine > 0.0 ? along - radial * cone.sine / cone.cosine : 0.0;
         double distance;
-        int region;
-        Vec3 from_b;
+        Vec3 normal;
         if (foot <= 0.0 || cone.length == 0.0) {
+            normal = from_a;
             distance = from_a.norm() - cone.radius_a;
-            region = 0;
         } else if (foot >= cone.length) {
-            from_b = from_a - cone.length * cone.axis;
-            distance = from_b.norm() - cone.radius_b;
-            region = 1;
+            normal = from_a - cone.length * cone.axis;
+            distance = normal.norm() - cone.radius_b;
         } else {
+            normal = radial > 0.0 ? Vec3(cone.sine * cone.axis + cone.cosine / radial * across)
+                                  : cone.axis;
             distance = radial * cone.cosine + along * cone.sine - cone.radius_a;
-            region = 2;
         }
         if (distance < best) {
             best = distance;
-            if (!part.rigid) {
-                if (region == 0) {
-                    best_normal = from_a;
-                } else if (region == 1) {
-                    best_normal = from_b;
-                } else {
-                    best_normal = cone.sine * cone.axis;
-                    if (radial > 0.0) {
-                        best_normal += cone.cosine / radial * across;
-                    }
-                }
-            }
+            best_cone = &cone;
+            best_normal = normal;
         }
     }
+    if (best_cone == nullptr) {
+        return {limit, Vec3::UnitX()};
+    }
+    const double length = best_normal.norm();
+    if (!(length > 0.0)) {
+        return {best * part.least_scale, Vec3::UnitX()};
+    }
+    best_normal /= length;
     if (part.rigid) {
-        return best;
+        return {best, part.to_part.transpose() * best_normal};
     }
     // To first order the distance in space, as the gradient there is to_part' times the normal.
-    const double length = best_normal.norm();
-    const double gradient = (part.to_part.transpose() * best_normal).norm();
-    return gradient > 0.0 ? best * length / gradient : best;
+    const Vec3 gradient = part.to_part.transpose() * best_normal;
+    const double slope = gradient.norm();
+    return {best / slope, gradient / slope};
 }
 
-double Solid::distance(const Vec3& point) const
+Solid::Value Solid::part_value(const Part& part, const Vec3& point, double limit)
 {
-    double result = kInfinity;
+    const Vec3 p = part.to_part * (point - part.origin);
+    if (part.kind == Kind::cones) {
+        return cones_value(part, p, limit);
+    }
+    if (part.kind == Kind::revolution) {
+        const double radius = std::sqrt(p.x() * p.x() + p.z() * p.z());
+        const auto [distance, across, along] = polygon_value(part.profile, radius, p.y());
+        const Vec3 out = radius > 0.0 ? Vec3(p.x() / radius, 0, p.z() / radius) : Vec3::UnitX();
+        const Vec3 normal = across * out + Vec3(0, along, 0);
+        return {distance - part.rounding, part.to_part.transpose() * normal};
+    }
+    const auto [side, x, y] = polygon_value(part.profile, p.x(), p.y());
+    const double cap = std::abs(p.z()) - part.half_height;
+    const Vec3 side_normal(x, y, 0);
+    const Vec3 cap_normal(0, 0, p.z() < 0.0 ? -1.0 : 1.0);
+    if (side <= 0.0 || cap <= 0.0) {
+        const bool sideways = side > cap;
+        return {std::max(side, cap) - part.rounding,
+                part.to_part.transpose() * (sideways ? side_normal : cap_normal)};
+    }
+    const double distance = std::sqrt(side * side + cap * cap);
+    return {distance - part.rounding,
+            part.to_part.transpose() * ((side * side_normal + cap * cap_normal) / distance)};
+}
+
+Solid::Value Solid::value(const Vec3& point) const
+{
+    double distance = kInfinity;
+    Vec3 gradient = Vec3::UnitX();
     for (const Part& part : parts_) {
-        const double least = (point - part.center).norm() - part.bound;
-        if (part.cut) {
-            if (least > part.blend.radius - result) {
-                continue;
-            }
-            const double d = part_distance(part, point);
-            const double k = blend_radius(part.blend, point);
-            result = -smooth_min(-result, d, k);
-        } else {
-            if (least > result + part.blend.radius) {
-                continue;
-            }
-            const double d = part_distance(part, point);
-            if (result == kInfinity) {
-                result = d;
-            } else if (std::abs(d - result) >= part.blend.radius) {
-                result = std::min(d, result);
-            } else {
-                result = smooth_min(result, d, blend_radius(part.blend, point));
-            }
+        const double sign = part.cut ? -1.0 : 1.0;
+        const double reach = sign * distance + part.blend.radius + part.bound;
+        if (reach <= 0.0 || (point - part.center).squaredNorm() > reach * reach) {
+            continue;
         }
-    }
-    return result;
-}
-
-Vec3 Solid::normal(const Vec3& point, double step) const
-{
-    // Four corners of a tetrahedron give the gradient.
-    static const std::array<Vec3, 4> kCorners{Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1),
-                                              Vec3(1, 1, 1)};
-    Vec3 gradient = Vec3::Zero();
-    for (const Vec3& corner : kCorners) {
-        gradient += distance(point + step * corner) * corner;
-    }
-    const double length = gradient.norm();
-    return length > 0.0 ? Vec3(gradient / length) : Vec3::UnitY();
-}
-
-Vec3 Solid::projected(const Vec3& point, double step) const
-{
-    Vec3 p = point;
-    for (int i = 0; i < 4; ++i) {
-        const double d = distance(p);
-        if (std::abs(d) < 0.02 * step) {
-            break;
+        const Value other = part_value(part, point, sign * distance + part.blend.radius);
+        if (distance == kInfinity) {
+            distance = other.distance;
+            gradient = other.normal;
+            continue;
         }
-        p -= d * normal(p, step);
+        const bool near = std::abs(other.distance - sign * distance) < part.blend.radius;
+        const double k = near ? blend_radius(part.blend, point) : 0.0;
+        const auto [blended, share] = smooth_min(sign * distance, other.distance, k);
+        distance = sign * blended;
+        gradient = (1.0 - share) * gradient + sign * share * other.normal;
     }
-    return p;
+    const double slope = gradient.norm();
+    return {distance, slope > 0.0 ? Vec3(gradient / slope) : Vec3::UnitY()};
 }
 
 std::optional<Vec3> Solid::exit(const Vec3& inside, const Vec3& direction, double range,

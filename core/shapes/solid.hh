@@ -64,12 +64,15 @@ public:
     /// The part added last is cut out instead of added.
     void cut_last();
 
-    /// Negative inside. Near the surface about the distance to it.
-    double distance(const Vec3& point) const;
-    /// The outward unit normal of the level set at `point`; `step` is the reach of the differences.
-    Vec3 normal(const Vec3& point, double step) const;
-    /// Moves `point` to the surface along the normals.
-    Vec3 projected(const Vec3& point, double step) const;
+    /// The value of the function at a point, and in which direction it grows.
+    struct Value {
+        /// Negative inside. Near the surface about the distance to it.
+        double distance;
+        /// A unit vector; near the surface about its outward normal.
+        Vec3 normal;
+    };
+    Value value(const Vec3& point) const;
+    double distance(const Vec3& point) const { return value(point).distance; }
     /// Where a ray from a point inside first leaves the solid; nothing if the point is not inside
     /// or the ray does not leave within `range`. `step` must be below the thinnest part.
     std::optional<Vec3> exit(const Vec3& inside, const Vec3& direction, double range,
@@ -88,6 +91,9 @@ private:
         Vec3 a;
         Vec3 axis;  // unit
         double length;
+        /// A ball around it, for a quick look.
+        Vec3 center;
+        double bound;
         double radius_a;
         double radius_b;
         /// Of the angle between the surface and the axis; no side surface if cosine is 0.
@@ -96,22 +102,26 @@ private:
     };
 
     struct Part {
-        Kind kind;
+        Kind kind = Kind::cones;
         bool cut = false;
-        Vec3 origin;
+        Vec3 origin = Vec3::Zero();
         /// From space, relative to origin, to the part's own coordinates.
-        Eigen::Matrix3d to_part;
-        bool rigid;
+        Eigen::Matrix3d to_part = Eigen::Matrix3d::Identity();
+        bool rigid = true;
+        double least_scale = 1.0;
+        double largest_scale = 1.0;
         std::vector<Cone> cones;
         Profile profile;
         double half_height = 0.0;
         double rounding = 0.0;
         Blend blend;
-        Vec3 center;
-        double bound;
+        Vec3 center = Vec3::Zero();
+        double bound = 0.0;
     };
 
-    double part_distance(const Part& part, const Vec3& point) const;
+    /// Of a part alone; anything not below `limit` if it is not below `limit`.
+    static Value part_value(const Part& part, const Vec3& point, double limit);
+    static Value cones_value(const Part& part, const Vec3& p, double limit);
     void add(Part part, const Vec3& lower, const Vec3& upper);
     void add_tube(const std::vector<Knot>& samples, const Blend& blend, const Squash& flat);
 

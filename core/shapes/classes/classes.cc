@@ -4,7 +4,7 @@ namespace layout_embedding::shapes {
 
 std::vector<ShapeClass> all_classes()
 {
-    return {hands(), cut_hands()};
+    return {quadrupeds(), hands(), people(), birds(), fish(), octopuses(), planes(), busts(), faces(), cut_hands()};
 }
 
 }  // namespace layout_embedding::shapes

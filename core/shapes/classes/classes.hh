@@ -6,8 +6,16 @@
 
 namespace layout_embedding::shapes {
 
-// One function per kind of shape, each in a file of its own.
+// Each in a file of its own, apart from pairs that differ in the cut alone.
+ShapeClass quadrupeds();
 ShapeClass hands();
+ShapeClass people();
+ShapeClass birds();
+ShapeClass fish();
+ShapeClass octopuses();
+ShapeClass planes();
+ShapeClass busts();
+ShapeClass faces();
 ShapeClass cut_hands();
 
 /// All of them, in the order of a gallery.

@@ -72,7 +72,7 @@ Figure hand_figure(Index member, bool cut)
 
     // The palm: a flat wedge, the bones of the middle hand, and the balls of thumb and little
     // finger.
-    solid.sweep({{{0.02, 0.1, 0}, 0.3 * w}, {{0.0, 0.55, 0}, 0.38 * w}, {{-0.01, 0.86, 0}, 0.36 * w}},
+    solid.sweep({{{0.02, 0.1, 0}, 0.3 * w}, {{0.0, 0.55, 0}, 0.38 * w}, {{-0.01, 0.7, 0}, 0.34 * w}},
                 {}, {palm, {1, 1, 0.42}});
     for (const FingerShape& finger : kFingers) {
         solid.sweep({{{0.45 * finger.x, 0.1, -0.02}, 0.11 * w},
@@ -155,7 +155,9 @@ Figure hand_figure(Index member, bool cut)
     }
     for (const int i : {0, 1, 2}) {
         const Vec3 between = 0.5 * (knuckles[i] + knuckles[i + 1]);
-        figure.landmark(std::string(names[i]) + "_web", between - Vec3(0, 0.22, 0), {0, 1, 0});
+        const Vec3 along = knuckles[i] - knuckles[i + 1];
+        const Vec3 forward = Vec3(-along.y(), along.x(), 0).normalized();
+        figure.landmark(std::string(names[i]) + "_web", between - 0.2 * forward, forward);
     }
     figure.landmark("palm", {0, 0.55, 0}, {0, 0, 1});
     figure.landmark("back", {0, 0.5, 0}, {0, 0, -1});
