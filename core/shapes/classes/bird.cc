@@ -133,27 +133,28 @@ Figure bird_figure(Index member)
         solid.sweep({{wrist.point(0, 0, -0.45 * ch), 0.42 * ch},
                      {wrist.point(0.55 * bird.hand * side, 0, -0.4 * ch), 0.33 * ch},
                      {tip, 0.12 * ch + 0.03}},
-                    {0.06}, {wrist, {1, 0.036 / (0.42 * ch), 1}});
+                    {0.1}, {wrist, {1, 0.038 / (0.42 * ch), 1}});
         figure.landmark(side_name(side, "wing_root"), joint.point(0.05 * side, 0, 0), joint.y());
         figure.landmark(side_name(side, "wing_wrist"), wrist.origin, wrist.direction(0, 0, 1));
         figure.landmark(side_name(side, "wing_tip"), tip, wrist.direction(side, 0, -0.3));
         figure.landmark(side_name(side, "wing_rear"), wrist.point(0, 0, -0.45 * ch), -wrist.z() - joint.z());
 
         // Legs and feet with three toes.
-        const Frame hip = Frame{body.point(0.42 * g * side, -0.5 * g, -0.12 * half), Frame{}.axes}.turned_x(-bird.leg_swing);
+        const Frame hip = Frame{body.point(0.46 * g * side, -0.5 * g, -0.12 * half), Frame{}.axes}.turned_x(-bird.leg_swing);
         const double t = bird.leg_radius;
         const double length = 0.35 * g + bird.leg;
         const Frame knee = hip.moved(0, -0.5 * length, -0.12 * length).turned_x(-16);
         const Frame foot = Frame{knee.point(0, -0.5 * length, 0), Frame{}.axes}.turned_x(-0.7 * bird.leg_swing);
         solid.sweep({{hip.origin, 2.2 * t}, {knee.origin, 1.15 * t}, {foot.origin, t}}, {0.09, hip.origin, 0.2});
-        for (const double toe : {-28.0, 0.0, 28.0}) {
-            const Frame direction = foot.turned_y(toe);
+        for (const double toe : {-16.0, 14.0, 44.0}) {
+            const Frame direction = foot.turned_y(side * toe);
             solid.sweep({{foot.origin, t}, {direction.point(0, -0.4 * t, 0.17), 0.72 * t}}, {0.03});
         }
         figure.landmark(side_name(side, "knee"), knee.origin, -knee.z());
-        figure.landmark(side_name(side, "foot"), foot.point(0, -0.4 * t, 0.16), foot.z());
+        figure.landmark(side_name(side, "foot"), foot.turned_y(14 * side).point(0, -0.4 * t, 0.16),
+                        foot.turned_y(14 * side).z());
     }
-    figure.detail = 0.022;
+    figure.detail = 0.019;
     return figure;
 }
 

@@ -15,8 +15,14 @@ ShapeClass fish();
 ShapeClass octopuses();
 ShapeClass planes();
 ShapeClass busts();
+ShapeClass machine_parts();
+ShapeClass vases();
 ShapeClass faces();
 ShapeClass cut_hands();
+ShapeClass cups();
+ShapeClass rings();
+ShapeClass spectacles();
+ShapeClass pretzels();
 
 /// All of them, in the order of a gallery.
 std::vector<ShapeClass> all_classes();

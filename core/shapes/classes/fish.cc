@@ -35,7 +35,7 @@ const std::array<Fish, 9> kFish{{
     {"tuna", 2.2, 0.33, 0.72, 0.62, 0.56, 0.22, 0.16, 0.26, 0.22, 0.4, 0.24, 12, 0.1},
     {"shark", 2.5, 0.3, 0.84, 0.64, 0.5, 0.34, 0.26, 0.42, 0.3, 0.62, 0.2, 26, 0.22},
     {"eel", 3.0, 0.17, 0.96, 0.7, 0.17, 0.2, 0.02, 0.12, 1.0, 0.2, 0.12, 100, 0.0},
-    {"puffer", 1.2, 0.48, 0.98, 0.56, 0.26, 0.3, 0.02, 0.18, 0.3, 0.26, 0.16, 10, 0.0},
+    {"puffer", 1.5, 0.44, 0.98, 0.56, 0.26, 0.3, 0.02, 0.18, 0.3, 0.26, 0.16, 10, 0.0},
     {"carp", 1.8, 0.36, 0.6, 0.64, 0.4, 0.4, 0.16, 0.26, 0.8, 0.34, 0.2, -34, 0.0},
     {"swordfish", 2.2, 0.28, 0.72, 0.66, 0.58, 0.26, 0.2, 0.46, 0.34, 0.42, 0.2, -16, 0.85},
 }};
@@ -134,8 +134,10 @@ Figure fish_figure(Index member)
                     {0.05, joint.origin, 0.12}, {joint, {1, 0.45, 1}});
         figure.landmark(side_name(side, "pectoral_tip"), joint.point(0.99 * p * side, 0, -0.298 * p), joint.direction(side, 0, -0.4));
         const Frame face = at(0.13);
-        const Frame eye = face.moved(0.8 * fish.width * height(0.13) * side, 0.24 * height(0.13), 0.02);
-        solid.ellipsoid(eye, Vec3::Constant(0.055 + 0.05 * fish.height), {0.03});
+        Frame eye = face;
+        const Vec3 aside = face.direction(side, 0.3, 0.25);
+        eye.origin = solid.exit(face.origin, aside, 1.0, 0.02).value_or(face.origin) - 0.02 * aside;
+        solid.ellipsoid(eye, Vec3::Constant(0.05 + 0.05 * fish.height), {0.03});
         figure.landmark(side_name(side, "eye"), eye.origin, eye.direction(side, 0.1, 0.15));
         const Frame flank = at(0.5);
         figure.landmark(side_name(side, "flank"), flank.origin, side * flank.x());

@@ -57,32 +57,34 @@ Figure head_figure(Index member, bool face)
 
     // Skull, face and jaw.
     solid.ellipsoid(skull.moved(0, 0.13, -0.06 * l), {0.36 * w, 0.38, 0.44 * l}, {});
-    solid.ellipsoid(skull.moved(0, -0.1 * jaw, 0.12), {0.28 * w, 0.34 * jaw, 0.27}, {0.16});
+    solid.ellipsoid(skull.moved(0, -0.12 * jaw, 0.11), {0.295 * w, 0.36 * jaw, 0.28}, {0.2});
     solid.sweep({{skull.point(-0.2 * w * head.jaw_width, -0.27 * jaw, 0.04), 0.1},
                  {skull.point(-0.1 * w * head.jaw_width, -0.4 * jaw, 0.24), 0.1},
                  {skull.point(0.1 * w * head.jaw_width, -0.4 * jaw, 0.24), 0.1},
                  {skull.point(0.2 * w * head.jaw_width, -0.27 * jaw, 0.04), 0.1}},
-                {0.14});
+                {0.22});
     const Frame chin = skull.moved(0, -0.43 * jaw, 0.315);
     solid.ellipsoid(chin, {0.085, 0.065, 0.055 + 0.02 * head.chin}, {0.1});
     for (const double side : {1.0, -1.0}) {
-        solid.ellipsoid(skull.moved(0.17 * w * side, -0.09, 0.25), Vec3(0.09, 0.07, 0.06) * std::sqrt(head.cheeks), {0.12});
+        solid.ellipsoid(skull.moved(0.17 * w * side, -0.09, 0.25), Vec3(0.1, 0.08, 0.06) * std::sqrt(head.cheeks), {0.16});
     }
-    // Sockets, eyes, lids and brows.
+    // Brows, sockets below them, eyes.
     for (const double side : {1.0, -1.0}) {
-        const Frame socket = skull.moved(0.135 * w * side, 0.045, 0.415);
-        solid.ellipsoid(socket, {0.085, 0.055, 0.07}, {0.08});
+        solid.sweep({{skull.point(0.05 * w * side, 0.115, 0.36), 0.03},
+                     {skull.point(0.14 * w * side, 0.14, 0.345 + 0.012 * head.brow), 0.034},
+                     {skull.point(0.22 * w * side, 0.115, 0.28), 0.03}},
+                    {0.08});
+        solid.ellipsoid(skull.moved(0.14 * w * side, 0.035, 0.425), {0.08, 0.045, 0.075}, {0.07});
         solid.cut_last();
-        const Frame eye = skull.moved(0.135 * w * side, 0.042, 0.295);
-        solid.ellipsoid(eye, Vec3(0.07, 0.058, 0.066) * head.eyes, {0.02});
-        solid.sweep({{skull.point(0.06 * w * side, 0.105, 0.375), 0.03},
-                     {skull.point(0.14 * w * side, 0.135, 0.37), 0.024 + 0.012 * head.brow},
-                     {skull.point(0.22 * w * side, 0.105, 0.29), 0.024}},
-                    {0.07});
+        solid.ellipsoid(skull.moved(0.135 * w * side, 0.035, 0.288), Vec3(0.068, 0.048, 0.07) * head.eyes, {0.018});
     }
     // Nose.
     const double n = head.nose;
     const Frame tip = skull.moved(0, -0.125, 0.385 + 0.1 * n);
+    solid.sweep({{skull.point(0, 0.08, 0.32), 0.045},
+                 {skull.point(0, -0.02, 0.355 + 0.015 * n), 0.05},
+                 {skull.point(0, -0.12, 0.37 + 0.03 * n), 0.058}},
+                {0.06});
     solid.sweep({{skull.point(0, 0.09, 0.36), 0.034},
                  {skull.point(0, -0.01, 0.385 + 0.035 * n), 0.034},
                  {tip.origin, 0.042 + 0.006 * head.nose_width}},
@@ -147,13 +149,13 @@ Figure head_figure(Index member, bool face)
     const double e = head.ears;
     for (const double side : {1.0, -1.0}) {
         const Frame ear = skull.moved(0.34 * w * side, 0.0, -0.02).turned_y(-side * 28).turned_x(-8);
-        solid.closed_sweep({{ear.point(0.0, -0.1 * e, 0.01), 0.026},
-                            {ear.point(0.02 * side, -0.02 * e, -0.05 * e), 0.028},
-                            {ear.point(0.03 * side, 0.08 * e, -0.065 * e), 0.03},
-                            {ear.point(0.02 * side, 0.12 * e, -0.01 * e), 0.03},
-                            {ear.point(0.0, 0.06 * e, 0.03 * e), 0.028}},
-                           {0.03}, {});
-        solid.ellipsoid(ear, {0.03, 0.1 * e, 0.055 * e}, {0.03});
+        solid.sweep({{ear.point(0.0, -0.1 * e, 0.01), 0.026},
+                     {ear.point(0.02 * side, -0.02 * e, -0.05 * e), 0.028},
+                     {ear.point(0.03 * side, 0.08 * e, -0.065 * e), 0.03},
+                     {ear.point(0.02 * side, 0.12 * e, -0.01 * e), 0.03},
+                     {ear.point(0.0, 0.07 * e, 0.03 * e), 0.028}},
+                    {0.03});
+        solid.ellipsoid(ear, {0.045, 0.1 * e, 0.06 * e}, {0.03});
         figure.landmark(side_name(side, "ear"), ear.point(0.02 * side, 0.08 * e, -0.05 * e), ear.direction(0.7 * side, 0.5, -0.5));
     }
     // Hair.
@@ -186,7 +188,7 @@ Figure head_figure(Index member, bool face)
                  {chest.point(0.5 * sh, 0.0, 0), 0.17}},
                 {0.18});
     solid.ellipsoid(chest.moved(0, -0.12, 0.04), {0.5 * sh, 0.3, 0.24}, {0.14});
-    solid.revolution(chest.moved(0, -0.56, 0), {{0, -0.12}, {0.3, -0.12}, {0.3, -0.04}, {0.14, 0.06}, {0.14, 0.3}, {0, 0.3}}, 0.03, {0.07});
+    solid.revolution(chest.moved(0, -0.56, 0), {{0, -0.1}, {0.26, -0.1}, {0.26, -0.05}, {0.12, 0.06}, {0.12, 0.3}, {0, 0.3}}, 0.05, {0.07});
     figure.landmark("crown", skull.point(0, 0.13, -0.08), skull.y());
     figure.landmark("back_of_head", skull.point(0, 0.05, -0.06), -skull.z());
     figure.landmark("neck_back", chest.point(0, 0.28, 0.0), {0, 0.1, -1});

@@ -75,7 +75,7 @@ Figure octopus_figure(Index member)
         Vec3 middle_up = bone.y();
         for (int i = 0; i <= count; ++i) {
             const double t = static_cast<double>(i) / count;
-            knots.push_back({bone.origin, 0.02 + animal.radius * (1.0 - 0.87 * t * (1.25 - 0.25 * t))});
+            knots.push_back({bone.origin, 0.028 + animal.radius * (1.0 - 0.88 * t * (1.25 - 0.25 * t))});
             if (i == count / 2) {
                 middle_up = bone.y();
             }

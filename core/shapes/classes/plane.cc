@@ -49,10 +49,12 @@ void add_surface(Solid& solid, const Frame& frame, double span, double root, dou
                  double sweep, double thickness, double blend)
 {
     const double back = span * sine(sweep) / cosine(sweep);
+    const double flatness = thickness / (0.2 * root);
+    const double end = std::max(0.3 * tip, 0.022 / flatness);
     for (const double part : {-1.0, 0.0, 1.0}) {
         solid.sweep({{frame.point(0, 0, part * (0.5 * root - 0.17 * root)), 0.2 * root},
-                     {frame.point(span, 0, -back + part * (0.5 * tip - 0.25 * tip)), 0.3 * tip}},
-                    {blend}, {frame, {1, thickness / (0.2 * root), 1}});
+                     {frame.point(span, 0, -back + part * 0.25 * tip), end}},
+                    {blend}, {frame, {1, flatness, 1}});
     }
 }
 
@@ -123,7 +125,7 @@ Figure plane_figure(Index member)
         figure.landmark(side_name(side, "engine_front"), engine.point(0, 0, e), engine.z());
         figure.landmark(side_name(side, "engine_rear"), engine.point(0, 0, -1.6 * e), -engine.z());
     }
-    figure.detail = 0.022;
+    figure.detail = 0.02;
     return figure;
 }
 
