@@ -62,7 +62,7 @@ public:
     {
         normals_.resize(mesh_.vertex_count());
         for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-            settle(v);
+            normals_[v] = solid_.value(position(v)).normal;
         }
     }
 
@@ -71,6 +71,14 @@ public:
         const double surplus = 1.0 + 0.9 * options_.irregularity;
         const double wanted = surplus * options_.vertices;
         find_sizes(wanted);
+        // The grid left many more vertices than are wanted, and slivers that would turn over if
+        // their vertices were moved.
+        collapse_short_edges(false);
+        collapse_short_edges(false);
+        compact();
+        for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+            settle(v);
+        }
         for (int i = 0; i < 3; ++i) {
             iterate();
             compact();
@@ -88,12 +96,12 @@ public:
         }
         roughen();
         simplify();
-        for (int i = 0; i < 3; ++i) {
-            mend();
+        make_delaunay();
+        for (int i = 0; i < 12 && mend(); ++i) {
         }
     }
 
-    /// The grid left many more vertices than are wanted.
+    /// Forgets what was removed.
     void compact()
     {
         const std::vector<Index> map = mesh_.compact();
@@ -233,7 +241,7 @@ private:
     void iterate()
     {
         split_long_edges();
-        collapse_short_edges();
+        collapse_short_edges(true);
         make_delaunay();
         make_delaunay();
         relax();
@@ -262,30 +270,30 @@ private:
         }
     }
 
-    /// Whether a triangle with these vertices looks outwards, with v at p.
-    bool looks_out(Index v, const Vec3& p, Index b, Index c) const
+    /// Whether the normal of a triangle with these vertices, with v at p, and the mean of theirs
+    /// have an angle with at least this cosine.
+    bool looks_out(Index v, const Vec3& p, Index b, Index c, double least = 0.15) const
     {
         const Vec3 normal = (position(b) - p).cross(position(c) - p);
         const Vec3 out = normals_[v] + normals_[b] + normals_[c];
-        return normal.dot(out) > 0.15 * normal.norm() * out.norm();
+        return normal.dot(out) > least * normal.norm() * out.norm();
     }
 
-    /// Whether all faces at v look outwards with v at p, other than the (up to two) faces that also
-    /// have `except`.
-    bool fits(Index v, const Vec3& p, Index except) const
+    /// How many faces at v do not look outwards with v at p, other than the (up to two) faces that
+    /// also have `except`.
+    int inward_faces(Index v, const Vec3& p, Index except = kNone) const
     {
-        bool good = true;
+        int count = 0;
         mesh_.for_outgoing(v, [&](Index h) {
             const Index b = mesh_.head(h);
             const Index c = mesh_.apex(h);
-            if (b != except && c != except) {
-                good = good && looks_out(v, p, b, c);
-            }
+            count += b != except && c != except && !looks_out(v, p, b, c) ? 1 : 0;
         });
-        return good;
+        return count;
     }
 
-    void collapse_short_edges()
+    /// Vertices of collapsed edges are put onto the surface if `exact`.
+    void collapse_short_edges(bool exact)
     {
         for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
             if (!mesh_.has_halfedge(h) || length(h) > 0.75 * wanted_length(h)) {
@@ -298,7 +306,10 @@ private:
             }
             const bool b_stays = locked_[b] || mesh_.is_boundary(b) != mesh_.is_boundary(a);
             const Vec3 target = b_stays ? position(b) : Vec3(0.5 * (position(a) + position(b)));
-            bool good = fits(a, target, b) && (b_stays || fits(b, target, a));
+            // Where the surface is folded, less of it is all that can be asked for.
+            const int folded = inward_faces(a, target, b) + inward_faces(b, target, a);
+            bool good = folded == 0 || folded < inward_faces(a, position(a)) +
+                                                    inward_faces(b, position(b));
             mesh_.for_neighbors(a, [&](Index w) {
                 const double limit = 0.7 * (sizes_[b] + sizes_[w]);
                 good = good && (w == b || (position(w) - target).norm() < limit);
@@ -307,7 +318,11 @@ private:
                 mesh_.collapse(h);
                 if (!b_stays) {
                     mesh_.positions[b] = target;
-                    settle(b);
+                    if (exact) {
+                        settle(b);
+                    } else {
+                        normals_[b] = (normals_[a] + normals_[b]).normalized();
+                    }
                 }
             }
         }
@@ -332,7 +347,14 @@ private:
         const Index b = mesh_.head(h);
         const Index c = mesh_.apex(h);
         const Index d = mesh_.apex(g);
-        return looks_out(d, position(d), c, a) && looks_out(c, position(c), d, b);
+        // Stricter than for collapses: flips across a sharp edge notch it.
+        const bool one = looks_out(d, position(d), c, a, 0.6);
+        const bool other = looks_out(c, position(c), d, b, 0.6);
+        if (one && other) {
+            return true;
+        }
+        const bool folded = !looks_out(a, position(a), b, c) && !looks_out(b, position(b), a, d);
+        return folded && (one || other);
     }
 
     void make_delaunay()
@@ -376,14 +398,15 @@ private:
         }
     }
 
-    /// Moves v to the surface near p, unless that turns a face over.
+    /// Moves v to the surface near p, unless that turns faces over.
     void try_move(Index v, const Vec3& p)
     {
         const Vec3 old_position = position(v);
         const Vec3 old_normal = normals_[v];
+        const int folded = inward_faces(v, old_position);
         mesh_.positions[v] = p;
         settle(v);
-        if (!fits(v, position(v), kNone)) {
+        if (inward_faces(v, position(v)) > folded) {
             mesh_.positions[v] = old_position;
             normals_[v] = old_normal;
         }
@@ -444,8 +467,10 @@ private:
     /// number of vertices that is wanted.
     void simplify()
     {
-        int stuck = 0;
-        while (mesh_.live_vertex_count() > options_.vertices && stuck < 20) {
+        // The part of the candidates that is tried in a round, and how strictly.
+        double share = 0.125;
+        double strict = 1.0;
+        for (int round = 0; round < 40 && mesh_.live_vertex_count() > options_.vertices; ++round) {
             const Index before = mesh_.live_vertex_count();
             std::vector<std::pair<double, Index>> candidates;
             for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
@@ -453,15 +478,14 @@ private:
                 if (mesh_.has_halfedge(h) && !locked_[mesh_.tail(h)]) {
                     const double bend =
                         1.0 - normals_[mesh_.tail(h)].dot(normals_[mesh_.head(h)]);
-                    const double cost = (0.4 + chance) * (1.0 + 4.0 * bend) * length(h) /
+                    const double cost = (0.4 + chance) * (1.0 + 12.0 * bend) * length(h) /
                                         wanted_length(h);
                     candidates.push_back({cost, h});
                 }
             }
             std::sort(candidates.begin(), candidates.end());
             // A part at a time, since costs change.
-            candidates.resize(candidates.size() / 8 + 1);
-            const double strict = stuck < 10 ? 1.0 : 0.3;
+            candidates.resize(static_cast<std::size_t>(share * candidates.size()));
             for (const auto& [cost, h] : candidates) {
                 if (mesh_.live_vertex_count() <= options_.vertices) {
                     break;
@@ -471,7 +495,10 @@ private:
                     mesh_.collapse(h);
                 }
             }
-            stuck = mesh_.live_vertex_count() == before ? stuck + 1 : 0;
+            if (before - mesh_.live_vertex_count() < before / 50) {
+                strict = share < 1.0 ? strict : std::max(0.0, strict - 0.25);
+                share = std::min(1.0, 2.0 * share);
+            }
             // The more irregular, the fewer flips.
             for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
                 const double chance = random_.unit();
@@ -495,58 +522,111 @@ private:
                 const auto [largest, smallest] =
                     angle_cosines(position(b), position(c), position(d));
                 // Angles between 10 and 150 degrees.
-                good = looks_out(b, position(b), c, d) && largest > -1.0 + 0.134 * strict &&
+                good = looks_out(b, position(b), c, d, 0.15 + 0.55 * strict) && largest > -1.0 + 0.134 * strict &&
                        smallest < 1.0 - 0.0152 * strict;
             }
         });
         return good;
     }
 
-    /// Flips, and else moves, away from triangles with angles below 5 degrees.
-    void mend()
+    /// Removes triangles with angles below 4 degrees by the first flip, collapse or move that leaves
+    /// larger ones. Returns whether there were any.
+    bool mend()
     {
+        bool any = false;
         for (Index f = 0; f < mesh_.face_count(); ++f) {
-            if (!mesh_.has_face(f) || worst_angle(f) < 0.9962) {
+            if (!mesh_.has_face(f) || sharpness(f) < 0.9976) {
                 continue;
             }
-            // A cap: flip its longest edge. A needle: collapse its shortest.
-            Index longest = 3 * f;
-            Index shortest = 3 * f;
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                longest = length(h) > length(longest) ? h : longest;
-                shortest = length(h) < length(shortest) ? h : shortest;
-            }
-            if (!on_boundary(longest) && mesh_.can_flip(longest) && flip_helps(longest)) {
-                mesh_.flip(longest);
-                continue;
-            }
-            for (const Index h : {shortest, mesh_.opposite(shortest)}) {
-                if (h != kNone && !locked_[mesh_.tail(h)] && mesh_.can_collapse(h) &&
-                    collapse_is_fair(h, 0.2)) {
-                    mesh_.collapse(h);
-                    break;
+            any = true;
+            bool done = false;
+            for (Index h = 3 * f; h < 3 * f + 3 && !done; ++h) {
+                if (!on_boundary(h) && mesh_.can_flip(h) && flip_helps(h)) {
+                    mesh_.flip(h);
+                    done = true;
                 }
             }
+            for (Index i = 0; i < 6 && !done; ++i) {
+                const Index h = i < 3 ? 3 * f + i : mesh_.opposite(3 * f + i - 3);
+                if (h != kNone && !locked_[mesh_.tail(h)] && mesh_.can_collapse(h) &&
+                    collapse_helps(h, sharpness(f))) {
+                    mesh_.collapse(h);
+                    done = true;
+                }
+            }
+            for (Index h = 3 * f; h < 3 * f + 3 && !done; ++h) {
+                done = move_helps(mesh_.tail(h));
+            }
         }
-        make_delaunay();
+        return any;
     }
 
-    double worst_angle(Index f) const
+    /// The cosine of the smallest angle.
+    double sharpness(Index f) const
     {
         const auto [a, b, c] = mesh_.face(f);
         return angle_cosines(position(a), position(b), position(c))[1];
     }
 
+    double largest_sharpness(Index v) const
+    {
+        double result = 0.0;
+        mesh_.for_outgoing(v, [&](Index h) { result = std::max(result, sharpness(h / 3)); });
+        return result;
+    }
+
     bool flip_helps(Index h) const
     {
         const Index g = mesh_.opposite(h);
-        const Vec3& a = position(mesh_.tail(h));
-        const Vec3& b = position(mesh_.head(h));
-        const Vec3& c = position(mesh_.apex(h));
-        const Vec3& d = position(mesh_.apex(g));
-        const double before = std::max(worst_angle(h / 3), worst_angle(g / 3));
-        const double after = std::max(angle_cosines(d, c, a)[1], angle_cosines(c, d, b)[1]);
-        return after < before && flip_fits(h);
+        const Index a = mesh_.tail(h);
+        const Index b = mesh_.head(h);
+        const Index c = mesh_.apex(h);
+        const Index d = mesh_.apex(g);
+        const double before = std::max(sharpness(h / 3), sharpness(g / 3));
+        const double after = std::max(angle_cosines(position(d), position(c), position(a))[1],
+                                      angle_cosines(position(c), position(d), position(b))[1]);
+        return after < before - 1e-6 && looks_out(d, position(d), c, a) &&
+               looks_out(c, position(c), d, b);
+    }
+
+    bool collapse_helps(Index h, double before) const
+    {
+        const Index a = mesh_.tail(h);
+        const Index b = mesh_.head(h);
+        bool good = true;
+        mesh_.for_outgoing(a, [&](Index g) {
+            const Index c = mesh_.head(g);
+            const Index d = mesh_.apex(g);
+            if (c != b && d != b && good) {
+                good = looks_out(b, position(b), c, d) &&
+                       angle_cosines(position(b), position(c), position(d))[1] < before - 1e-6;
+            }
+        });
+        return good;
+    }
+
+    /// Moves v towards the middle of its neighbours, if that makes its faces better.
+    bool move_helps(Index v)
+    {
+        if (locked_[v] || mesh_.is_boundary(v)) {
+            return false;
+        }
+        Vec3 center = Vec3::Zero();
+        double count = 0.0;
+        mesh_.for_neighbors(v, [&](Index w) {
+            center += position(w);
+            count += 1.0;
+        });
+        const Vec3 old_position = position(v);
+        const Vec3 old_normal = normals_[v];
+        const double before = largest_sharpness(v);
+        try_move(v, 0.5 * (old_position + center / count));
+        if (largest_sharpness(v) < before) {
+            return true;
+        }
+        mesh_.positions[v] = old_position;
+        normals_[v] = old_normal;
+        return false;
     }
 
     const Solid& solid_;

@@ -36,7 +36,7 @@ const std::array<Head, 10> kHeads{{
     {"adult", 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0, 0, 0, 0},
     {"woman", 0.95, 0.98, 0.92, 0.88, 0.8, 0.82, 0.85, 0.5, 1.1, 1.25, 1.12, 0.85, 0.8, 0.85, 10, 4, 3, 0},
     {"child", 1.04, 1.0, 0.78, 0.92, 0.6, 0.62, 0.95, 0.4, 1.4, 1.1, 1.25, 1.1, 0.7, 0.72, -8, 0, 1, 0},
-    {"old_man", 0.98, 1.02, 1.06, 1.0, 1.3, 1.35, 1.15, 1.5, 0.8, 0.7, 0.9, 1.35, 0.95, 0.95, 6, 10, 0, 0.5},
+    {"old_man", 0.98, 1.02, 1.06, 1.0, 1.3, 1.35, 1.15, 1.5, 0.8, 0.7, 0.9, 1.35, 0.95, 0.95, 6, 3, 0, 0.5},
     {"philosopher", 1.02, 1.0, 1.05, 1.06, 1.0, 1.15, 1.1, 1.3, 0.9, 0.8, 0.95, 1.0, 1.1, 1.1, -14, 6, 1, 1.2},
     {"girl", 0.98, 0.98, 0.84, 0.86, 0.7, 0.7, 0.82, 0.4, 1.25, 1.2, 1.2, 0.8, 0.7, 0.74, 14, -4, 2, 0},
     {"boxer", 1.06, 0.98, 1.04, 1.22, 1.3, 0.85, 1.45, 1.5, 1.1, 1.15, 0.85, 1.15, 1.5, 1.3, 0, 8, 1, 0},
@@ -102,9 +102,9 @@ Figure head_figure(Index member, bool face)
                  {skull.point(0, y - 0.036, 0.378), 0.024 + 0.009 * head.lips},
                  {skull.point(0.085, y - 0.01, 0.335), 0.018}},
                 {0.04});
-    solid.sweep({{skull.point(-0.1, y + 0.002, 0.36), 0.006},
-                 {skull.point(0, y - 0.004, 0.42), 0.008},
-                 {skull.point(0.1, y + 0.002, 0.36), 0.006}},
+    solid.sweep({{skull.point(-0.09, y + 0.002, 0.375), 0.012},
+                 {skull.point(0, y - 0.004, 0.425), 0.014},
+                 {skull.point(0.09, y + 0.002, 0.375), 0.012}},
                 {0.03});
     solid.cut_last();
     if (head.beard > 0.0) {
@@ -118,7 +118,7 @@ Figure head_figure(Index member, bool face)
 
     figure.landmark("nose_tip", tip.origin, tip.direction(0, -0.1, 1));
     figure.landmark("nose_bridge", skull.point(0, 0.075, 0.33), skull.z());
-    figure.landmark("forehead", skull.point(0, 0.25, 0.1), skull.z());
+    figure.landmark("forehead", skull.point(0, 0.21, 0.1), skull.z());
     figure.landmark("chin", chin.origin, chin.direction(0, -0.15, 1));
     figure.landmark("upper_lip", skull.point(0, y + 0.032, 0.35), skull.z());
     figure.landmark("lower_lip", skull.point(0, y - 0.042, 0.35), skull.z());
@@ -160,7 +160,7 @@ Figure head_figure(Index member, bool face)
     }
     // Hair.
     if (head.hair > 0) {
-        solid.ellipsoid(skull.moved(0, 0.19, -0.11 * l), {0.385 * w, 0.37, 0.435 * l}, {0.03});
+        solid.ellipsoid(skull.moved(0, 0.2, -0.15 * l), {0.405 * w, 0.385, 0.45 * l}, {0.03});
         if (head.hair == 2) {
             for (const double side : {1.0, -1.0}) {
                 solid.sweep({{skull.point(0.3 * w * side, 0.15, -0.16), 0.13},
@@ -201,7 +201,7 @@ Figure head_figure(Index member, bool face)
     }
     figure.landmark("base_front", chest.point(0, -0.63, 0), {0, 0, 1});
     figure.landmark("base_bottom", chest.point(0, -0.63, 0), {0, -1, 0});
-    figure.detail = 0.02;
+    figure.detail = 0.022;
     return figure;
 }
 

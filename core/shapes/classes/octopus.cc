@@ -94,7 +94,7 @@ Figure octopus_figure(Index member)
         const Frame between = base.turned_y(45.0 * (arm + 1)).turned_x(0.5 * animal.drop);
         figure.landmark("web_" + std::to_string(arm + 1), between.point(0, 0.03, 0.3 * w), between.z());
     }
-    figure.detail = 0.026;
+    figure.detail = 0.031;
     return figure;
 }
 
