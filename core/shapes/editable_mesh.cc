@@ -180,7 +180,8 @@ void EditableMesh::collapse(Index h)
     }
     outgoing_[a] = kNone;
     --live_vertices_;
-    // Of the faces that stay: left runs c to b, left_other runs b (once a) to c; right d to b (once a), right_other b to d.
+    // Of the faces that stay: left runs c to b, left_other runs b (once a) to c; right d to b (once
+    // a), right_other b to d.
     anchor(b, left_other != kNone ? left_other : next(left));
     anchor(c, left != kNone ? left : next(left_other));
     if (d != kNone) {

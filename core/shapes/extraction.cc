@@ -107,8 +107,7 @@ private:
     void add(const Vec3& inside, Index a, Index b, Index c)
     {
         const Vec3& pa = surface_.positions[a];
-        const Vec3 normal =
-            (surface_.positions[b] - pa).cross(surface_.positions[c] - pa);
+        const Vec3 normal = (surface_.positions[b] - pa).cross(surface_.positions[c] - pa);
         if (normal.dot(pa - inside) < 0.0) {
             std::swap(b, c);
         }
@@ -178,9 +177,8 @@ RawSurface clip_surface(const RawSurface& surface, const Vec3& origin, const Vec
     const auto cut = [&](Index a, Index b) {
         const auto low = std::min(a, b);
         const auto high = std::max(a, b);
-        const auto [entry, is_new] =
-            cuts.try_emplace(static_cast<std::uint64_t>(low) << 32 | high,
-                             static_cast<Index>(result.positions.size()));
+        const auto [entry, is_new] = cuts.try_emplace(static_cast<std::uint64_t>(low) << 32 | high,
+                                                      static_cast<Index>(result.positions.size()));
         if (is_new) {
             const double t = heights[low] / (heights[low] - heights[high]);
             result.positions.push_back(surface.positions[low] +

@@ -251,15 +251,14 @@ int write_shapes(const Arguments& arguments)
         if (members.empty()) {
             return fail("there is no such member of " + shape_class->name);
         }
-        index += std::string(index.empty() ? "" : ",") +
-                 "\n        {\n            \"name\": " + quoted(shape_class->name) +
-                 ",\n            \"title\": " + quoted(shape_class->title) +
-                 ",\n            \"genus\": " + std::to_string(shape_class->genus) +
-                 ",\n            \"boundaryLoops\": " +
-                 std::to_string(shape_class->boundary_loops) +
-                 ",\n            \"landmarkNames\": " +
-                 quoted(shape_class->name + "/landmarks.json") +
-                 ",\n            \"members\": [" + members + "\n            ]\n        }";
+        index +=
+            std::string(index.empty() ? "" : ",") +
+            "\n        {\n            \"name\": " + quoted(shape_class->name) +
+            ",\n            \"title\": " + quoted(shape_class->title) +
+            ",\n            \"genus\": " + std::to_string(shape_class->genus) +
+            ",\n            \"boundaryLoops\": " + std::to_string(shape_class->boundary_loops) +
+            ",\n            \"landmarkNames\": " + quoted(shape_class->name + "/landmarks.json") +
+            ",\n            \"members\": [" + members + "\n            ]\n        }";
     }
     if (!write_file(folder / "index.json", "{\n    \"classes\": [" + index + "\n    ]\n}\n")) {
         return fail("cannot write " + (folder / "index.json").string());

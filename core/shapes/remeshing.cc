@@ -20,8 +20,7 @@ std::array<double, 2> angle_cosines(const Vec3& a, const Vec3& b, const Vec3& c)
         const double product = 4.0 * x * y;
         return product > 0.0 ? (x + y - across) / std::sqrt(product) : 1.0;
     };
-    const std::array<double, 3> cosines{cosine(ab, ca, bc), cosine(ab, bc, ca),
-                                        cosine(bc, ca, ab)};
+    const std::array<double, 3> cosines{cosine(ab, ca, bc), cosine(ab, bc, ca), cosine(bc, ca, ab)};
     return {*std::min_element(cosines.begin(), cosines.end()),
             *std::max_element(cosines.begin(), cosines.end())};
 }
@@ -97,7 +96,7 @@ public:
         roughen();
         simplify();
         make_delaunay();
-        for (int i = 0; i < 12 && mend(); ++i) {
+        for (int i = 0; i < 30 && mend(); ++i) {
         }
     }
 
@@ -128,7 +127,10 @@ public:
 
 private:
     const Vec3& position(Index v) const { return mesh_.positions[v]; }
-    double length(Index h) const { return (position(mesh_.head(h)) - position(mesh_.tail(h))).norm(); }
+    double length(Index h) const
+    {
+        return (position(mesh_.head(h)) - position(mesh_.tail(h))).norm();
+    }
     double wanted_length(Index h) const
     {
         return 0.5 * (sizes_[mesh_.head(h)] + sizes_[mesh_.tail(h)]);
@@ -292,7 +294,7 @@ private:
         return count;
     }
 
-    /// Vertices of collapsed edges are put onto the surface if `exact`.
+    /// Edges become their midpoints, put onto the surface, if `exact`, else one of their ends.
     void collapse_short_edges(bool exact)
     {
         for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
@@ -304,12 +306,13 @@ private:
             if (locked_[a] || !mesh_.can_collapse(h)) {
                 continue;
             }
-            const bool b_stays = locked_[b] || mesh_.is_boundary(b) != mesh_.is_boundary(a);
+            const bool b_stays =
+                !exact || locked_[b] || mesh_.is_boundary(b) != mesh_.is_boundary(a);
             const Vec3 target = b_stays ? position(b) : Vec3(0.5 * (position(a) + position(b)));
             // Where the surface is folded, less of it is all that can be asked for.
             const int folded = inward_faces(a, target, b) + inward_faces(b, target, a);
-            bool good = folded == 0 || folded < inward_faces(a, position(a)) +
-                                                    inward_faces(b, position(b));
+            bool good =
+                folded == 0 || folded < inward_faces(a, position(a)) + inward_faces(b, position(b));
             mesh_.for_neighbors(a, [&](Index w) {
                 const double limit = 0.7 * (sizes_[b] + sizes_[w]);
                 good = good && (w == b || (position(w) - target).norm() < limit);
@@ -318,11 +321,7 @@ private:
                 mesh_.collapse(h);
                 if (!b_stays) {
                     mesh_.positions[b] = target;
-                    if (exact) {
-                        settle(b);
-                    } else {
-                        normals_[b] = (normals_[a] + normals_[b]).normalized();
-                    }
+                    settle(b);
                 }
             }
         }
@@ -476,10 +475,9 @@ private:
             for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
                 const double chance = random_.unit();
                 if (mesh_.has_halfedge(h) && !locked_[mesh_.tail(h)]) {
-                    const double bend =
-                        1.0 - normals_[mesh_.tail(h)].dot(normals_[mesh_.head(h)]);
-                    const double cost = (0.4 + chance) * (1.0 + 12.0 * bend) * length(h) /
-                                        wanted_length(h);
+                    const double bend = 1.0 - normals_[mesh_.tail(h)].dot(normals_[mesh_.head(h)]);
+                    const double cost =
+                        (0.4 + chance) * (1.0 + 12.0 * bend) * length(h) / wanted_length(h);
                     candidates.push_back({cost, h});
                 }
             }
@@ -522,15 +520,15 @@ private:
                 const auto [largest, smallest] =
                     angle_cosines(position(b), position(c), position(d));
                 // Angles between 10 and 150 degrees.
-                good = looks_out(b, position(b), c, d, 0.15 + 0.55 * strict) && largest > -1.0 + 0.134 * strict &&
-                       smallest < 1.0 - 0.0152 * strict;
+                good = looks_out(b, position(b), c, d, 0.15 + 0.55 * strict) &&
+                       largest > -1.0 + 0.134 * strict && smallest < 1.0 - 0.0152 * strict;
             }
         });
         return good;
     }
 
-    /// Removes triangles with angles below 4 degrees by the first flip, collapse or move that leaves
-    /// larger ones. Returns whether there were any.
+    /// Removes triangles with angles below 4 degrees by the first flip, collapse or move that
+    /// leaves larger ones. Returns whether there were any.
     bool mend()
     {
         bool any = false;

@@ -31,7 +31,7 @@ Error defect(const std::string& subject, const std::string& what)
 /// What differs from member to member besides the figure.
 struct Finish {
     RemeshOptions remesh;
-    /// Amplitude of the noise as a part of the mean edge length.
+    /// Amplitude of the noise as a part of the shortest edge at a vertex.
     double noise;
 };
 
@@ -39,7 +39,7 @@ Finish finish_of(const ShapeClass& shape_class, Index member, const ShapeOptions
 {
     // The looks of a collection come from many sources: clean and rough ones take turns.
     static constexpr double kIrregularities[] = {0.35, 0.6, 0.2, 0.8, 0.45, 1.0, 0.55, 0.3};
-    static constexpr double kNoises[] = {0.0, 0.06, 0.0, 0.1, 0.03, 0.0, 0.12, 0.05};
+    static constexpr double kNoises[] = {0.0, 0.07, 0.0, 0.12, 0.04, 0.0, 0.14, 0.06};
     Random random(seed_of(shape_class, member, options.seed));
     Finish finish;
     finish.remesh.vertices =
@@ -84,9 +84,8 @@ Result<Shape> make_shape(const ShapeClass& shape_class, Index member, const Shap
                                                         std::to_string(shape_class.member_count()));
     }
     if (options.vertices != 0 && (options.vertices < 500 || options.vertices > 200000)) {
-        return make_error(ErrorCode::invalidOption,
-                          "a shape has 500 to 200000 vertices, not " +
-                              std::to_string(options.vertices));
+        return make_error(ErrorCode::invalidOption, "a shape has 500 to 200000 vertices, not " +
+                                                        std::to_string(options.vertices));
     }
     const Figure figure = shape_class.build(member);
     const double size = figure.solid.size();

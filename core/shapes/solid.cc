@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Smooth minimum with a cubic blend (Quilez, "Smooth minimum"): the minimum where the two differ by
-/// k or more. Returns it with the share of b in its gradient.
+/// Smooth minimum with a cubic blend (Quilez, "Smooth minimum"): the minimum where the two differ
+/// by k or more. Returns it with the share of b in its gradient.
 std::array<double, 2> smooth_min(double a, double b, double k)
 {
     const double difference = std::abs(a - b);
@@ -262,8 +262,7 @@ Solid::Value Solid::cones_value(const Part& part, const Vec3& p, double limit)
     Vec3 best_normal = Vec3::UnitX();
     for (const Cone& cone : part.cones) {
         const double reach = best + cone.bound;
-        if (best < kInfinity &&
-            (reach <= 0.0 || (p - cone.center).squaredNorm() > reach * reach)) {
+        if (best < kInfinity && (reach <= 0.0 || (p - cone.center).squaredNorm() > reach * reach)) {
             continue;
         }
         const Vec3 from_a = p - cone.a;

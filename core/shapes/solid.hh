@@ -25,8 +25,8 @@ struct Blend {
     double reach = std::numeric_limits<double>::infinity();
 };
 
-/// Radii are multiplied by `scale` (all positive) along the axes of the frame, whose origin does not
-/// count: a flat wing is a tube in a plane, squashed along the normal of the plane.
+/// Radii are multiplied by `scale` (all positive) along the axes of the frame, whose origin does
+/// not count: a flat wing is a tube in a plane, squashed along the normal of the plane.
 struct Squash {
     Frame frame;
     Vec3 scale = Vec3::Ones();

@@ -32,7 +32,8 @@ MeshStatistics mesh_statistics(const TriangleMesh& mesh)
         squares += length * length;
     }
     const double mean = sum / lengths.size();
-    result.length_variation = std::sqrt(std::max(0.0, squares / lengths.size() - mean * mean)) / mean;
+    result.length_variation =
+        std::sqrt(std::max(0.0, squares / lengths.size() - mean * mean)) / mean;
     result.length_low = quantile(lengths, 0.05) / mean;
     result.length_high = quantile(lengths, 0.95) / mean;
 

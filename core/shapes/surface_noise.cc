@@ -1,6 +1,8 @@
 #include "shapes/surface_noise.hh"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/random.hh"
@@ -50,8 +52,7 @@ void add_surface_noise(PolygonMesh& mesh, double amplitude, std::uint64_t seed)
     }
     const Index count = mesh.vertex_count();
     std::vector<Vec3> normals(count, Vec3::Zero());
-    std::vector<double> lengths(count, 0.0);
-    std::vector<double> corners(count, 0.0);
+    std::vector<double> shortest(count, std::numeric_limits<double>::infinity());
     double mean = 0.0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const auto face = mesh.face(f);
@@ -60,9 +61,10 @@ void add_surface_noise(PolygonMesh& mesh, double amplitude, std::uint64_t seed)
         for (Index i = 0; i < 3; ++i) {
             const Index v = face[i];
             const double length = (mesh.positions[face[(i + 1) % 3]] - mesh.positions[v]).norm();
+            const Index w = face[(i + 1) % 3];
             normals[v] += normal;
-            lengths[v] += length;
-            corners[v] += 1.0;
+            shortest[v] = std::min(shortest[v], length);
+            shortest[w] = std::min(shortest[w], length);
             mean += length / mesh.corners.size();
         }
     }
@@ -75,7 +77,7 @@ void add_surface_noise(PolygonMesh& mesh, double amplitude, std::uint64_t seed)
             continue;
         }
         const double smooth = value_noise(mesh.positions[v] / (4.0 * mean), smooth_seed);
-        const double offset = amplitude * (0.6 * smooth + 0.4 * chance) * lengths[v] / corners[v];
+        const double offset = amplitude * (0.6 * smooth + 0.4 * chance) * shortest[v];
         mesh.positions[v] += offset / norm * normals[v];
     }
 }

@@ -1,9 +1,6 @@
-#include "shapes/shape.hh"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +11,7 @@
 #include "shapes/editable_mesh.hh"
 #include "shapes/extraction.hh"
 #include "shapes/frame.hh"
+#include "shapes/shape.hh"
 #include "shapes/statistics.hh"
 
 namespace layout_embedding::shapes {
@@ -94,7 +92,7 @@ void expect_landmarks_on_their_rays(const Collection& collection)
             const Vec3& p = shape.mesh.positions[shape.landmarks[i]];
             const Vec3 way = p - figure.landmarks[i].inside;
             const Vec3 ray = figure.landmarks[i].direction.normalized();
-            // Noise moves vertices by up to an eighth of an edge.
+            // Noise moves vertices by a fraction of their shortest edge.
             const double tolerance = 0.01 * figure.solid.size();
             EXPECT_LT((way - way.dot(ray) * ray).norm(), tolerance);
             EXPECT_GT(way.dot(ray), -tolerance);
@@ -112,8 +110,8 @@ void expect_left_landmarks_left_of_right_ones(const Collection& collection)
             continue;
         }
         const std::string partner = "right" + names[left].substr(4);
-        const auto right = static_cast<std::size_t>(
-            std::find(names.begin(), names.end(), partner) - names.begin());
+        const auto right = static_cast<std::size_t>(std::find(names.begin(), names.end(), partner) -
+                                                    names.begin());
         ASSERT_LT(right, names.size()) << names[left] << " has no partner";
         for (Index m = 0; m < collection.shapes.size(); ++m) {
             const Shape& shape = collection.shapes[m];
@@ -178,8 +176,9 @@ TEST(Shapes, there_are_ten_closed_classes_of_genus_zero_with_eight_members_each)
     int disks = 0;
     for (const ShapeClass& shape_class : shape_classes()) {
         EXPECT_GE(shape_class.member_count(), 8U) << shape_class.name;
-        EXPECT_EQ(std::set<std::string>(shape_class.members.begin(), shape_class.members.end()).size(),
-                  shape_class.members.size());
+        EXPECT_EQ(
+            std::set<std::string>(shape_class.members.begin(), shape_class.members.end()).size(),
+            shape_class.members.size());
         names.insert(shape_class.name);
         genera.insert(shape_class.genus);
         spheres += shape_class.euler_characteristic() == 2 ? 1 : 0;

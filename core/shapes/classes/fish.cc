@@ -53,7 +53,9 @@ Figure fish_figure(Index member)
     for (int i = 0; i <= count; ++i) {
         spine.push_back(bone);
         const double t = static_cast<double>(i) / count;
-        bone = bone.moved(0, 0, -fish.length / count).turned_y(2.0 * t * fish.bend / count * (fish.bend > 60 ? cosine(330 * t) : 1.0));
+        bone =
+            bone.moved(0, 0, -fish.length / count)
+                .turned_y(2.0 * t * fish.bend / count * (fish.bend > 60 ? cosine(330 * t) : 1.0));
     }
     const auto at = [&](double t) { return spine[static_cast<std::size_t>(t * count + 0.5)]; };
     // Height of the body at a part t of the way back: rises to the peak, falls to the tail's root.
@@ -79,7 +81,8 @@ Figure fish_figure(Index member)
     const Frame head = at(0.06);
     const double front = height(0.06) * 0.55;
     solid.sweep({{head.point(0, -0.05 * fish.height, -0.1), front},
-                 {head.point(0, -0.1 * fish.height, 0.06 + fish.snout), fish.snout > 0.5 ? 0.028 : 0.5 * front}},
+                 {head.point(0, -0.1 * fish.height, 0.06 + fish.snout),
+                  fish.snout > 0.5 ? 0.028 : 0.5 * front}},
                 {0.15}, {Frame{}, {std::max(fish.width, 0.5), 1, 1}});
     figure.landmark("mouth", head.point(0, -0.1 * fish.height, 0.06 + fish.snout), head.z());
 
@@ -92,12 +95,17 @@ Figure fish_figure(Index member)
     const double th = fish.tail_height;
     const double tl = fish.tail_length;
     for (const double side : {1.0, -1.0}) {
-        fin(root, {{root.point(0, 0, 0.05), 0.085}, {root.point(0, 0.5 * th * side, -0.5 * tl), 0.12},
-                   {root.point(0, th * side, -tl - 0.4 * fish.fork), 0.06}}, 0.06);
+        fin(root,
+            {{root.point(0, 0, 0.05), 0.085},
+             {root.point(0, 0.5 * th * side, -0.5 * tl), 0.12},
+             {root.point(0, th * side, -tl - 0.4 * fish.fork), 0.06}},
+            0.06);
     }
     fin(root, {{root.point(0, 0, 0), 0.09}, {root.point(0, 0, -tl + fish.fork), 0.11}}, 0.1);
-    figure.landmark("tail_upper", root.point(0, 0.985 * th, -tl - 0.39 * fish.fork), root.direction(0, 0.8, -0.6));
-    figure.landmark("tail_lower", root.point(0, -0.985 * th, -tl - 0.39 * fish.fork), root.direction(0, -0.8, -0.6));
+    figure.landmark("tail_upper", root.point(0, 0.985 * th, -tl - 0.39 * fish.fork),
+                    root.direction(0, 0.8, -0.6));
+    figure.landmark("tail_lower", root.point(0, -0.985 * th, -tl - 0.39 * fish.fork),
+                    root.direction(0, -0.8, -0.6));
     figure.landmark("tail_middle", root.point(0, 0, -tl + fish.fork), -root.z());
 
     const Frame top = at(peak + 0.02);
@@ -105,20 +113,28 @@ Figure fish_figure(Index member)
     const double back = std::min(0.9, peak + fish.dorsal_length / fish.length);
     const Frame behind = at(back);
     const Frame halfway = at(0.5 * (peak + back));
-    fin(top, {{top.point(0, 0.75 * height(peak), 0.1), 0.12},
-              {halfway.point(0, height(0.5 * (peak + back)) + 0.55 * d, 0.08), 0.13},
-              {halfway.point(0, height(0.5 * (peak + back)) + d, -0.12), 0.055}}, 0.08);
-    fin(halfway, {{halfway.point(0, 0.8 * height(0.5 * (peak + back)), 0.1), 0.13},
-                 {behind.point(0, height(back) - 0.02, 0), 0.075}}, 0.12);
-    figure.landmark("dorsal_tip", halfway.point(0, height(0.5 * (peak + back)) + 0.99 * d, -0.118), halfway.direction(0, 0.9, -0.4));
+    fin(top,
+        {{top.point(0, 0.75 * height(peak), 0.1), 0.12},
+         {halfway.point(0, height(0.5 * (peak + back)) + 0.55 * d, 0.08), 0.13},
+         {halfway.point(0, height(0.5 * (peak + back)) + d, -0.12), 0.055}},
+        0.08);
+    fin(halfway,
+        {{halfway.point(0, 0.8 * height(0.5 * (peak + back)), 0.1), 0.13},
+         {behind.point(0, height(back) - 0.02, 0), 0.075}},
+        0.12);
+    figure.landmark("dorsal_tip", halfway.point(0, height(0.5 * (peak + back)) + 0.99 * d, -0.118),
+                    halfway.direction(0, 0.9, -0.4));
     figure.landmark("back_front", at(0.2).origin, at(0.2).y());
 
     const Frame under = at(0.72);
     const double under_height = height(0.72);
-    fin(under, {{under.point(0, -0.6 * under_height, 0.1), 0.1},
-                {under.point(0, -under_height - 0.6 * fish.anal, -0.05), 0.1},
-                {under.point(0, -under_height - fish.anal, -0.2), 0.055}}, 0.08);
-    figure.landmark("anal_tip", under.point(0, -under_height - 0.99 * fish.anal, -0.198), under.direction(0, -0.8, -0.6));
+    fin(under,
+        {{under.point(0, -0.6 * under_height, 0.1), 0.1},
+         {under.point(0, -under_height - 0.6 * fish.anal, -0.05), 0.1},
+         {under.point(0, -under_height - fish.anal, -0.2), 0.055}},
+        0.08);
+    figure.landmark("anal_tip", under.point(0, -under_height - 0.99 * fish.anal, -0.198),
+                    under.direction(0, -0.8, -0.6));
     figure.landmark("belly", at(0.42).origin, -at(0.42).y());
     figure.landmark("tail_root_top", at(0.94).origin, at(0.94).y());
     figure.landmark("tail_root_bottom", at(0.94).origin, -at(0.94).y());
@@ -126,13 +142,16 @@ Figure fish_figure(Index member)
     for (const double side : {1.0, -1.0}) {
         const Frame gill = at(0.28);
         const double x = 0.78 * fish.width * height(0.28);
-        const Frame joint = gill.moved(x * side, -0.3 * fish.height, 0).turned_y(-side * 42).turned_z(-side * 26);
+        const Frame joint =
+            gill.moved(x * side, -0.3 * fish.height, 0).turned_y(-side * 42).turned_z(-side * 26);
         const double p = fish.pectoral;
         solid.sweep({{joint.point(-0.04 * side, 0, 0.04), 0.065},
                      {joint.point(0.55 * p * side, 0, -0.1), 0.1},
                      {joint.point(p * side, 0, -0.3 * p), 0.055}},
                     {0.05, joint.origin, 0.12}, {joint, {1, 0.45, 1}});
-        figure.landmark(side_name(side, "pectoral_tip"), joint.point(0.99 * p * side, 0, -0.298 * p), joint.direction(side, 0, -0.4));
+        figure.landmark(side_name(side, "pectoral_tip"),
+                        joint.point(0.99 * p * side, 0, -0.298 * p),
+                        joint.direction(side, 0, -0.4));
         const Frame face = at(0.13);
         Frame eye = face;
         const Vec3 aside = face.direction(side, 0.3, 0.25);

@@ -63,7 +63,8 @@ Figure ring_figure(Index member)
             outline.push_back({(s - 0.03) * cosine(angle), (s - 0.03) * sine(angle)});
         }
         solid.extrusion(stone, outline, 0.5 * ring.stone_height, 0.04, {0.06});
-        solid.ellipsoid(stone.moved(0, 0, 0.5 * ring.stone_height), {0.75 * s, 0.75 * s, 0.1}, {0.03});
+        solid.ellipsoid(stone.moved(0, 0, 0.5 * ring.stone_height), {0.75 * s, 0.75 * s, 0.1},
+                        {0.03});
     }
     if (ring.side_stones > 0.0) {
         for (const double side : {-1.0, 1.0}) {
@@ -80,7 +81,8 @@ Figure ring_figure(Index member)
     const struct {
         const char* name;
         double angle;
-    } places[] = {{"left_upper", 36}, {"left", 0}, {"left_lower", -45}, {"bottom", -90}, {"right_lower", -135}, {"right", 180}, {"right_upper", 144}};
+    } places[] = {{"left_upper", 36},    {"left", 0},    {"left_lower", -45}, {"bottom", -90},
+                  {"right_lower", -135}, {"right", 180}, {"right_upper", 144}};
     for (const auto& [name, angle] : places) {
         const Vec3 out(cosine(angle), sine(angle), 0);
         const Vec3 center = out + Vec3(0, 0, ring.wave * sine(4 * angle));
@@ -125,7 +127,8 @@ Figure spectacles_figure(Index member)
     const double center = 0.5 * glasses.bridge + glasses.width + glasses.rim;
     const double r = glasses.rim;
     for (const double side : {1.0, -1.0}) {
-        const Frame rim = Frame{}.moved(side * center, 0, 0).turned_y(side * 6).turned_z(-side * glasses.tilt);
+        const Frame rim =
+            Frame{}.moved(side * center, 0, 0).turned_y(side * 6).turned_z(-side * glasses.tilt);
         const auto at = [&](double angle) {
             // A circle pushed out towards its bounding box.
             const double c = cosine(angle);
@@ -153,7 +156,8 @@ Figure spectacles_figure(Index member)
                     {0.05});
         figure.landmark(side_name(side, "temple_tip"), tip, temple.direction(0, -0.7, -0.6));
         figure.landmark(side_name(side, "temple_middle"), temple.point(0, 0, -0.6 * l), temple.y());
-        figure.landmark(side_name(side, "hinge"), temple.point(0, 0, 0), temple.direction(side, 0.2, 0.4));
+        figure.landmark(side_name(side, "hinge"), temple.point(0, 0, 0),
+                        temple.direction(side, 0.2, 0.4));
         figure.landmark(side_name(side, "rim_top"), at(90), rim.y());
         figure.landmark(side_name(side, "rim_bottom"), at(270), -rim.y());
         figure.landmark(side_name(side, "rim_outer"), at(330), rim.direction(side, -0.3, 0));
@@ -225,7 +229,9 @@ Figure pretzel_figure(Index member)
         figure.landmark(side_name(side, "loop_back"), at(0.86, -0.24, 0), {0, 0, -1});
     }
     for (const double side : {1.0, -1.0}) {
-        figure.landmark(side_name(side, "end"), {side * 0.5 * w, -0.62 * pretzel.lower * h, 0.6 * r}, {side * 0.2, -0.1, 1});
+        figure.landmark(side_name(side, "end"),
+                        {side * 0.5 * w, -0.62 * pretzel.lower * h, 0.6 * r},
+                        {side * 0.2, -0.1, 1});
     }
     figure.landmark("belly_bottom", {0, -0.86 * h, 0}, {0, -1, 0});
     figure.landmark("belly_inner", {0, -0.86 * h, 0}, {0, 1, 0});

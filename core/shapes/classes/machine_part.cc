@@ -58,7 +58,10 @@ Figure machine_part_figure(Index member)
     const double top = 0.5 * part.plate;
     const Frame upright;
     solid.revolution(upright,
-                     {{0, 0}, {part.boss - e, 0}, {part.boss - e, top + part.boss_height}, {0, top + part.boss_height}},
+                     {{0, 0},
+                      {part.boss - e, 0},
+                      {part.boss - e, top + part.boss_height},
+                      {0, top + part.boss_height}},
                      e, {fillet});
     Profile hexagon;
     for (int i = 0; i < 6; ++i) {
@@ -85,12 +88,14 @@ Figure machine_part_figure(Index member)
     const double lw = part.lever_width;
     const Frame lever = upright.moved(0, height, 0).turned_y(part.lever_turn);
     const double thick = std::min(0.32 * part.boss_height, 0.09);
-    solid.extrusion(lever.turned_x(-90), {{0, -1.1 * lw}, {reach, -0.7 * lw}, {reach, 0.7 * lw}, {0, 1.1 * lw}},
-                    thick, e, {fillet});
+    solid.extrusion(lever.turned_x(-90),
+                    {{0, -1.1 * lw}, {reach, -0.7 * lw}, {reach, 0.7 * lw}, {0, 1.1 * lw}}, thick,
+                    e, {fillet});
     const double end_height = 0.16;
-    solid.revolution(lever.moved(reach, 0, 0),
-                     {{0, -end_height}, {1.25 * lw, -end_height}, {1.25 * lw, end_height}, {0, end_height}},
-                     e, {fillet});
+    solid.revolution(
+        lever.moved(reach, 0, 0),
+        {{0, -end_height}, {1.25 * lw, -end_height}, {1.25 * lw, end_height}, {0, end_height}}, e,
+        {fillet});
 
     const double w = part.width - e;
     const double d = part.depth - e;
@@ -98,17 +103,21 @@ Figure machine_part_figure(Index member)
     for (int i = 0; i < 4; ++i) {
         const Vec3 out(corners[i].x() > 0 ? 1 : -1, 0, corners[i].z() > 0 ? 1 : -1);
         const double y = 0.5 * part.plate;
-        figure.landmark("plate_top_" + std::to_string(i + 1), corners[i] + Vec3(0, y, 0), out + Vec3(0, 1, 0));
-        figure.landmark("plate_bottom_" + std::to_string(i + 1), corners[i] - Vec3(0, y, 0), out - Vec3(0, 1, 0));
+        figure.landmark("plate_top_" + std::to_string(i + 1), corners[i] + Vec3(0, y, 0),
+                        out + Vec3(0, 1, 0));
+        figure.landmark("plate_bottom_" + std::to_string(i + 1), corners[i] - Vec3(0, y, 0),
+                        out - Vec3(0, 1, 0));
     }
     for (int i = 0; i < 6; ++i) {
         const Frame out = upright.moved(0, head + 0.5 * part.hexagon_height, 0).turned_y(60 * i);
-        figure.landmark("hexagon_" + std::to_string(i + 1), out.point(part.hexagon - e, 0, 0), out.direction(1, 0.7, 0));
+        figure.landmark("hexagon_" + std::to_string(i + 1), out.point(part.hexagon - e, 0, 0),
+                        out.direction(1, 0.7, 0));
     }
     figure.landmark("head_top", {0, head, 0}, {0, 1, 0});
     figure.landmark("shaft_end", {0, -0.8 * length, 0}, {0, -1, 0});
     for (int i = 0; i < 4; ++i) {
-        figure.landmark("collar_" + std::to_string(i + 1), {0, -0.5 * length + 0.06, 0}, {cosine(90 * i + 45), 0, sine(90 * i + 45)});
+        figure.landmark("collar_" + std::to_string(i + 1), {0, -0.5 * length + 0.06, 0},
+                        {cosine(90 * i + 45), 0, sine(90 * i + 45)});
     }
     figure.landmark("lever_top", lever.point(reach, 0, 0), lever.y());
     figure.landmark("lever_bottom", lever.point(reach, 0, 0), -lever.y());

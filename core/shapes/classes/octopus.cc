@@ -66,7 +66,9 @@ Figure octopus_figure(Index member)
         const double wave = sine(137.5 * (arm + 1) + 61.0 * member);
         const double other = sine(222.5 * (arm + 2) + 43.0 * member);
         const double length = animal.arm * (1.0 + 0.14 * other);
-        Frame bone = base.turned_y(turn).moved(0, 0.05, 0.45 * w).turned_x(animal.drop * (1.0 + 0.3 * animal.variation * other));
+        Frame bone = base.turned_y(turn)
+                         .moved(0, 0.05, 0.45 * w)
+                         .turned_x(animal.drop * (1.0 + 0.3 * animal.variation * other));
         const double rise = animal.rise * (1.0 + 0.35 * animal.variation * wave);
         // Arms wind the same way round, so that they stay apart.
         const double wind = animal.wind * (1.0 + 0.25 * animal.variation * other);
@@ -75,7 +77,8 @@ Figure octopus_figure(Index member)
         Vec3 middle_up = bone.y();
         for (int i = 0; i <= count; ++i) {
             const double t = static_cast<double>(i) / count;
-            knots.push_back({bone.origin, 0.028 + animal.radius * (1.0 - 0.88 * t * (1.25 - 0.25 * t))});
+            knots.push_back(
+                {bone.origin, 0.028 + animal.radius * (1.0 - 0.88 * t * (1.25 - 0.25 * t))});
             if (i == count / 2) {
                 middle_up = bone.y();
             }
@@ -92,7 +95,8 @@ Figure octopus_figure(Index member)
     }
     for (int arm = 0; arm < 8; ++arm) {
         const Frame between = base.turned_y(45.0 * (arm + 1)).turned_x(0.5 * animal.drop);
-        figure.landmark("web_" + std::to_string(arm + 1), between.point(0, 0.03, 0.3 * w), between.z());
+        figure.landmark("web_" + std::to_string(arm + 1), between.point(0, 0.03, 0.3 * w),
+                        between.z());
     }
     figure.detail = 0.031;
     return figure;

@@ -40,7 +40,8 @@ const std::array<Plane, 9> kPlanes{{
     {"cargo", 2.1, 0.23, 0.7, 1.25, 0.44, 0.2, 14, -3, 0.85, 0.1, 0.5, 0.5, 1.0, 0.1, 0.42},
     {"delta", 2.3, 0.125, 2.4, 0.72, 1.0, 0.15, 52, 0, -0.2, -0.2, 0.26, 0.42, 0.0, 0.07, 0.4},
     {"toy", 1.3, 0.24, 0.6, 0.85, 0.42, 0.34, 4, 5, -0.3, 0.1, 0.42, 0.38, 0.0, 0.09, 0.45},
-    {"swept_forward", 2.0, 0.14, 1.6, 0.95, 0.42, 0.2, -24, 2, 0.0, -0.16, 0.36, 0.4, 0.0, 0.065, 0.0},
+    {"swept_forward", 2.0, 0.14, 1.6, 0.95, 0.42, 0.2, -24, 2, 0.0, -0.16, 0.36, 0.4, 0.0, 0.065,
+     0.0},
 }};
 
 /// A flat tapering surface between two stations in the x-z plane of the frame, as two tubes so that
@@ -110,7 +111,8 @@ Figure plane_figure(Index member)
         tail = side > 0.0 ? tail : tail.turned_z(180);
         add_surface(solid, tail, plane.tail_span, 0.26, 0.15, 24, 0.032, 0.05);
         const double tail_back = plane.tail_span * sine(24) / cosine(24);
-        figure.landmark(side_name(side, "tail_tip"), tail.point(plane.tail_span, 0, -tail_back), tail.x());
+        figure.landmark(side_name(side, "tail_tip"), tail.point(plane.tail_span, 0, -tail_back),
+                        tail.x());
 
         // Engines hang in front of and below the wing, or sit at the rear.
         const double e = plane.engine;

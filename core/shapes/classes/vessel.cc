@@ -96,7 +96,8 @@ Figure vase_figure(Index member)
             const double t = 0.25 * k;
             const double y = 0.1 + t * (vase.belly_height - 0.1);
             const Frame turned = upright.turned_y(90.0 * i + vase.wind * t);
-            rib.push_back({turned.point(0, y, outer_radius(wall, y)), vase.rib * (0.5 + 0.5 * t) + 0.012});
+            rib.push_back(
+                {turned.point(0, y, outer_radius(wall, y)), vase.rib * (0.5 + 0.5 * t) + 0.012});
         }
         knobs[i] = rib.back().position;
         solid.sweep(rib, {0.05}, {}, 3);
@@ -110,7 +111,8 @@ Figure vase_figure(Index member)
         figure.landmark("foot_" + number, foot.point(0, 0.03, 0), foot.z());
         // From the middle of the wall at the lip.
         const Frame lip = upright.turned_y(90.0 * i);
-        figure.landmark("lip_" + number, lip.point(0, vase.height - 0.3 * e, vase.lip - 0.5 * vase.wall), lip.y());
+        figure.landmark("lip_" + number,
+                        lip.point(0, vase.height - 0.3 * e, vase.lip - 0.5 * vase.wall), lip.y());
     }
     figure.landmark("inner_bottom", upright.point(0, 0.07, 0), upright.y());
     figure.landmark("outer_bottom", upright.point(0, 0.07, 0), -upright.y());
@@ -152,7 +154,11 @@ Figure cup_figure(Index member)
     const double e = 0.5 * cup.wall;
     const double h = cup.height;
     solid.revolution(upright,
-                     hollow({{cup.foot, 0.0}, {0.5 * (cup.foot + cup.belly), 0.1 * h}, {cup.belly, 0.45 * h}, {cup.lip, h}}, cup.wall, 0.13),
+                     hollow({{cup.foot, 0.0},
+                             {0.5 * (cup.foot + cup.belly), 0.1 * h},
+                             {cup.belly, 0.45 * h},
+                             {cup.lip, h}},
+                            cup.wall, 0.13),
                      e, {});
     const double yu = cup.upper * h;
     const double yl = cup.lower * h;
@@ -163,7 +169,11 @@ Figure cup_figure(Index member)
     const Vec3 top(far - 0.3 * cup.reach, yu + 0.03, 0);
     const Vec3 middle(far, 0.55 * yu + 0.45 * yl, 0);
     const Vec3 low(far - 0.36 * cup.reach, yl + 0.06 * h, 0);
-    solid.sweep({{{xu - 0.02, yu, 0}, 1.1 * r}, {top, 0.95 * r}, {middle, r}, {low, 0.95 * r}, {{xl - 0.02, yl, 0}, 1.1 * r}},
+    solid.sweep({{{xu - 0.02, yu, 0}, 1.1 * r},
+                 {top, 0.95 * r},
+                 {middle, r},
+                 {low, 0.95 * r},
+                 {{xl - 0.02, yl, 0}, 1.1 * r}},
                 {0.07}, {upright, {1, 1, 1.25}}, 8);
     figure.landmark("handle_top", top, {0.5, 1, 0});
     figure.landmark("handle_middle", middle, {1, 0, 0});
@@ -172,12 +182,14 @@ Figure cup_figure(Index member)
     for (int i = 0; i < 4; ++i) {
         const Frame turned = upright.turned_y(90.0 * i);
         const std::string number = std::to_string(i + 1);
-        figure.landmark("lip_" + number, turned.point(cup.lip - 0.5 * cup.wall, h - 0.3 * e, 0), turned.y());
+        figure.landmark("lip_" + number, turned.point(cup.lip - 0.5 * cup.wall, h - 0.3 * e, 0),
+                        turned.y());
         figure.landmark("foot_" + number, turned.point(0, 0.04, 0), turned.x());
     }
     for (int i = 1; i < 4; ++i) {
         const Frame turned = upright.turned_y(90.0 * i);
-        figure.landmark("belly_" + std::to_string(i + 1), turned.point(cup.belly - 0.5 * cup.wall, 0.45 * h, 0), turned.x());
+        figure.landmark("belly_" + std::to_string(i + 1),
+                        turned.point(cup.belly - 0.5 * cup.wall, 0.45 * h, 0), turned.x());
     }
     figure.landmark("inner_bottom", {0, 0.06, 0}, {0, 1, 0});
     figure.landmark("outer_bottom", {0, 0.06, 0}, {0, -1, 0});
