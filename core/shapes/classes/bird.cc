@@ -150,7 +150,8 @@ Figure bird_figure(Index member)
                      {wrist.point(0.55 * bird.hand * side, 0, -0.4 * ch), 0.33 * ch},
                      {tip, 0.12 * ch + 0.03}},
                     {0.1}, {wrist, {1, 0.038 / (0.42 * ch), 1}});
-        figure.landmark(side_name(side, "wing_root"), joint.point(0.05 * side, 0, 0), joint.y());
+        figure.landmark(side_name(side, "wing_root"), joint.point(0.3 * bird.arm * side, 0, 0),
+                        joint.y());
         figure.landmark(side_name(side, "wing_wrist"), wrist.origin, wrist.direction(0, 0, 1));
         figure.landmark(side_name(side, "wing_tip"), tip, wrist.direction(side, 0, -0.3));
         figure.landmark(side_name(side, "wing_rear"), wrist.point(0, 0, -0.45 * ch),
