@@ -1,5 +1,7 @@
 #include "shapes/frame.hh"
 
+#include <cmath>
+
 namespace layout_embedding::shapes {
 
 namespace {

@@ -1,8 +1,8 @@
 // The shape collection as files; see kUsage. For tests, benchmarks and the page's gallery.
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -38,7 +38,7 @@ struct Finish {
 Finish finish_of(const ShapeClass& shape_class, Index member, const ShapeOptions& options)
 {
     // The looks of a collection come from many sources: clean and rough ones take turns.
-    static constexpr double kIrregularities[] = {0.35, 0.6, 0.2, 0.8, 0.45, 1.0, 0.55, 0.3};
+    static constexpr double kIrregularities[] = {0.35, 0.6, 0.1, 0.8, 0.45, 1.0, 0.55, 0.2};
     static constexpr double kNoises[] = {0.0, 0.07, 0.0, 0.12, 0.04, 0.0, 0.14, 0.06};
     Random random(seed_of(shape_class, member, options.seed));
     Finish finish;

@@ -51,8 +51,8 @@ struct Shape {
 
 /// Member `member` of a class. Figures are about one to three units large, stand upright along y
 /// and look along z, with their left side at positive x. Deterministic, and the same on every
-/// platform with IEEE arithmetic. The topology is confirmed to be that of the class, the mesh
-/// passes check_surface() as a target, and no angle is below a tenth of a degree.
+/// platform with IEEE arithmetic. The topology is confirmed to be that of the class, and the mesh
+/// passes check_surface() as a target.
 ///
 /// Errors: invalidOption (no such member, or number of vertices out of range); internal (the
 /// figure does not have the topology of its class or a landmark does not meet its surface: a

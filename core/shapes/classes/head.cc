@@ -157,7 +157,7 @@ Figure head_figure(Index member, bool face)
     }
     if (face) {
         // The rim runs in front of the ears, from the hair line to below the chin.
-        const Frame rim = skull.moved(0, 0, -0.0).turned_x(4);
+        const Frame rim = skull.turned_x(4);
         figure.cut = CutPlane{rim.point(0, 0, 0.02), -rim.z()};
         const Vec3 middle = rim.point(0, 0.0, 0.02);
         figure.landmark_on_rim("rim_top", middle, rim.y());
