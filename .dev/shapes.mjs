@@ -1,0 +1,22 @@
+// npm run shapes -- …: the generator of the shape collection, built first if need be. Without
+// arguments it says what it can do.
+import { spawn } from "node:child_process";
+import path from "node:path";
+import { buildPreset } from "./build.mjs";
+import { beQuiet, main, root } from "./run.mjs";
+import { ensureSystemPackages } from "./system.mjs";
+
+await main(async () => {
+    beQuiet();
+    await ensureSystemPackages("native");
+    await buildPreset("release", { targets: ["generate_shapes"] });
+    return new Promise((resolve) => {
+        // npm changes to the project's root; paths are meant from where the user called it.
+        const child = spawn(
+            path.join(root, "build/release/core/shapes/generate_shapes"),
+            process.argv.slice(2),
+            { cwd: process.env.INIT_CWD ?? process.cwd(), stdio: "inherit" },
+        );
+        child.on("close", (code) => resolve(code ?? 1));
+    });
+});
