@@ -192,10 +192,15 @@ struct EmbedJob::Implementation {
         if (options.work_limit) {
             return *options.work_limit;
         }
-        const bool ends_by_itself = options.algorithm != Algorithm::branch_and_bound;
-        return ends_by_itself || first_embedding_work == UINT64_MAX
-                   ? UINT64_MAX
-                   : first_embedding_work + kDefaultPatience;
+        if (options.algorithm != Algorithm::branch_and_bound) {
+            return UINT64_MAX;  // ends by itself
+        }
+        // Until there is an embedding, what two searches of the whole graph per layout edge take.
+        const std::uint64_t first =
+            first_embedding_work != UINT64_MAX
+                ? first_embedding_work
+                : std::uint64_t{2} * problem.layout->edge_count() * graph->node_count();
+        return first + kDefaultPatience;
     }
 
     /// Searches for a bounded amount of work.

@@ -55,7 +55,8 @@ struct EmbedOptions {
     /// machine; use work_limit for reproducible ones.
     double time_limit = std::numeric_limits<double>::infinity();
     /// Units of work for the search (WorkBudget: about node expansions). If it is not given, branch
-    /// and bound stops kDefaultPatience units after its first embedding.
+    /// and bound stops kDefaultPatience units after its first embedding, or, while there is none,
+    /// after what two searches of the whole path graph per layout edge would take.
     std::optional<std::uint64_t> work_limit;
     /// Bytes the job may take, estimated before it starts.
     std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();

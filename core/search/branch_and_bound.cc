@@ -380,7 +380,7 @@ BranchAndBound::Outcome BranchAndBound::add_state(Index walk, std::uint64_t hash
         return accept_candidates();
     }
     const Length bound = options_.candidate_bounds ? child_.bound : embedding_.cost();
-    if (bound >= prune_threshold()) {
+    if (bound >= prune_threshold() || nodes_.size() >= options_.max_states) {
         drop(bound);
         return Outcome::finished;
     }

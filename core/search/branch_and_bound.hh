@@ -27,6 +27,9 @@ struct BranchAndBoundOptions {
     bool delay_non_conflicting = true;
     /// Visit by number of conflicting edges times lower bound (Sec. 4.5), not by lower bound alone.
     bool mixed_priority = true;
+    /// States kept at most, about 200 bytes each: beyond, new ones are dropped, and their bounds
+    /// limit what can be proved.
+    std::size_t max_states = std::size_t{1} << 18U;
 };
 
 /// The paper's branch and bound over insertion sequences (Sec. 4) on strands of zero width, where

@@ -200,6 +200,25 @@ TEST(BranchAndBound, bounds_under_a_tolerance_hold_for_the_exact_optimum)
     EXPECT_GT(gaps, 5);
 }
 
+TEST(BranchAndBound, bounds_hold_with_few_states)
+{
+    int unproved = 0;
+    for (const Instance& instance : tiny_instances(106, 40)) {
+        SCOPED_TRACE(instance.name);
+        Search optimal(instance.problem, exact());
+        optimal.finish();
+        BranchAndBoundOptions options = exact();
+        options.max_states = 3;
+        Search search(instance.problem, options);
+        search.finish();
+        EXPECT_LE(search.branch_and_bound.counters().states_created, 3U);
+        EXPECT_LE(search.branch_and_bound.lower_bound(), optimal.incumbent.cost());
+        EXPECT_GE(search.incumbent.cost(), optimal.incumbent.cost());
+        unproved += search.branch_and_bound.lower_bound() < search.incumbent.cost() ? 1 : 0;
+    }
+    EXPECT_GT(unproved, 5);
+}
+
 TEST(BranchAndBound, slices_change_nothing)
 {
     for (const Instance& instance : tiny_instances(105, 6)) {

@@ -480,7 +480,7 @@ protected:
         std::vector<Index> stops{ground_.strands.landmark_node(a)};
         const PolygonMesh mesh = sphere();
         for (const auto& [x, y] : points) {
-            stops.push_back(nearest(mesh, x, y));
+            stops.push_back(ground_.graph.node_of_vertex(nearest(mesh, x, y)));
         }
         stops.push_back(ground_.strands.landmark_node(b));
         std::vector<Index> darts;

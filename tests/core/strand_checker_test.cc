@@ -307,7 +307,7 @@ TEST(StrandChecker, on_the_boundary_the_order_is_linear)
         const Instance instance{"fan", problem, ground.graph, ground.strands.weak_embedding()};
         EXPECT_EQ(codes(instance, instance.weak), Codes{});
         const Instance moved = moved_to(instance, rotated);
-        const bool on_boundary = ground.graph.is_boundary(center);
+        const bool on_boundary = ground.graph.is_boundary(ground.graph.node_of_vertex(center));
         EXPECT_EQ(on_boundary, center == 3);
         EXPECT_EQ(codes(moved, moved.weak), on_boundary ? Codes{"strandOrder"} : Codes{});
     }

@@ -463,7 +463,9 @@ TEST(QuadPairing, leaves_few_triangles_in_flat_meshes)
 /// Embeds the template where its landmarks are; whether that worked, every result checked.
 bool embeds(EmbeddingProblem problem, double* ratio = nullptr)
 {
-    EmbedJob job(std::move(problem), {});
+    EmbedOptions options;
+    options.work_limit = 3'000'000;
+    EmbedJob job(std::move(problem), options);
     while (job.step()) {
     }
     EXPECT_EQ(job.error().message, "");

@@ -146,8 +146,8 @@ std::uint32_t boundary_job_events(std::uint32_t job, std::uint32_t first)
 }
 
 /// Views the state as 19 doubles: status, bound scope, cost, lower bound, gap, seconds, CPU
-/// seconds, work, searches, expansions, field nodes, insertions, remembered answers, states created,
-/// expanded, pruned and redundant, dead ends, ties.
+/// seconds, work, searches, expansions, field nodes, insertions, remembered answers, states
+/// created, expanded, pruned and redundant, dead ends, ties.
 BOUNDARY_EXPORT(boundary_job_state) std::uint32_t boundary_job_state(std::uint32_t job)
 {
     return guarded(0U, [&] {
@@ -162,8 +162,8 @@ BOUNDARY_EXPORT(boundary_job_state) std::uint32_t boundary_job_state(std::uint32
             static_cast<double>(counters.states_created),
             static_cast<double>(counters.states_expanded),
             static_cast<double>(counters.states_pruned),
-            static_cast<double>(counters.states_redundant),
-            static_cast<double>(counters.dead_ends), static_cast<double>(counters.ties)});
+            static_cast<double>(counters.states_redundant), static_cast<double>(counters.dead_ends),
+            static_cast<double>(counters.ties)});
         return 1U;
     });
 }
