@@ -3,19 +3,9 @@
 #include <algorithm>
 
 #include "base/random.hh"
+#include "surface/stretch.hh"
 
 namespace layout_embedding {
-
-namespace {
-
-/// Whether x comes before y going counter-clockwise from `from`; all three differ. The darts that
-/// leave a node are numbered counter-clockwise.
-bool is_before(Index from, Index x, Index y)
-{
-    return (from < x && x < y) || (x < y && y < from) || (y < from && from < x);
-}
-
-}  // namespace
 
 WalkPool::WalkPool(const Strands& strands)
     : graph_(strands.graph()), layout_(strands.layout()), leaving_(layout_.vertex_count())
@@ -53,40 +43,6 @@ bool WalkPool::cross(Index a, Index b) const
     return std::binary_search(walks_[a].crossing.begin(), walks_[a].crossing.end(), b);
 }
 
-/// Whether the stretch that begins at inner node i of a and j of b, where the walks come together
-/// (seen along a), crosses.
-bool WalkPool::crosses(const Walk& a, Index i, const Walk& b, Index j) const
-{
-    const Index a_back = way_back(a, i);
-    Index a_on = way_on(a, i);
-    const Index b_back = way_back(b, j);
-    const Index b_on = way_on(b, j);
-    if (b_back == a_back || b_on == a_back) {
-        return false;  // not where the stretch begins
-    }
-    if (b_back != a_on && b_on != a_on) {
-        // They share this node only.
-        return is_before(a_back, b_back, a_on) != is_before(a_back, b_on, a_on);
-    }
-    const bool forward = b_on == a_on;
-    const Index b_before = forward ? b_back : b_on;
-    const bool begins_right = is_before(a_back, b_before, a_on);
-    Index k = i;
-    Index l = j;
-    for (;;) {
-        if (k + 1 == a.inner_count() || (forward ? l + 1 == b.inner_count() : l == 0)) {
-            return false;  // ends at a landmark
-        }
-        ++k;
-        l = forward ? l + 1 : l - 1;
-        a_on = way_on(a, k);
-        const Index b_ahead = forward ? way_on(b, l) : way_back(b, l);
-        if (b_ahead != a_on) {
-            return begins_right != is_before(way_back(a, k), b_ahead, a_on);
-        }
-    }
-}
-
 void WalkPool::find_crossings(Index walk)
 {
     Walk& a = walks_[walk];
@@ -94,7 +50,7 @@ void WalkPool::find_crossings(Index walk)
         auto& visits = visits_of_nodes_[graph_.head(a.darts[i])];
         for (const Visit& visit : visits) {
             if (visit.walk != walk && walks_[visit.walk].layout_edge != a.layout_edge &&
-                crosses(a, i, walks_[visit.walk], visit.k)) {
+                stretch_crosses(graph_, a.darts, i, walks_[visit.walk].darts, visit.k)) {
                 a.crossing.push_back(visit.walk);
             }
         }

@@ -64,9 +64,6 @@ private:
         Index k;
     };
 
-    Index way_back(const Walk& walk, Index k) const { return graph_.twin(walk.darts[k]); }
-    static Index way_on(const Walk& walk, Index k) { return walk.darts[k + 1]; }
-    bool crosses(const Walk& a, Index i, const Walk& b, Index j) const;
     bool leaves_before(const Leaving& x, const Leaving& y) const;
     void find_crossings(Index walk);
     void find_place(Index walk, Index from_end);
