@@ -15,7 +15,7 @@ constexpr Words::Letter kNoLetter = 0;
 class ShortestPathTree {
 public:
     ShortestPathTree(const PathGraph& graph, std::span<const Index> landmark_nodes, Index root)
-        : graph_(graph), parents_(graph.node_count(), kNone)
+        : parents_(graph.node_count(), kNone)
     {
         std::vector<bool> is_landmark(graph.node_count(), false);
         for (const Index node : landmark_nodes) {
@@ -58,7 +58,6 @@ public:
     Index parent_dart(Index node) const { return parents_[node]; }
 
 private:
-    const PathGraph& graph_;
     std::vector<Index> parents_;
 };
 
