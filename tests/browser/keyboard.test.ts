@@ -1,3 +1,4 @@
+import type { FileChooser } from "playwright-core";
 import { expect, test } from "vitest";
 import { colorsOf, solved, untilStatus, useBrowser } from "./browser.js";
 
@@ -79,12 +80,13 @@ test("an_example_is_chosen_solved_and_taken_home_with_the_keyboard_alone", async
 
 test("shortcuts_open_files_toggle_the_layout_and_show_the_keys", async () => {
     const { page, close } = await open();
+    // Long before the key, for the browser has to be told to hand over its dialogs.
+    const choosers: FileChooser[] = [];
+    page.on("filechooser", (chooser) => choosers.push(chooser));
     await untilStatus(page, solved);
-    const [chooser] = await Promise.all([
-        page.waitForEvent("filechooser"),
-        page.keyboard.press("o"),
-    ]);
-    expect(chooser.isMultiple()).toBe(true);
+    await page.keyboard.press("o");
+    await expect.poll(() => choosers.length, { timeout: 30_000 }).toBe(1);
+    expect(choosers[0]?.isMultiple()).toBe(true);
     await page.keyboard.press("l");
     expect(await page.isVisible("#layout-view")).toBe(false);
     expect(await page.isChecked("#show-layout")).toBe(false);
