@@ -17,9 +17,6 @@ export default defineConfig({
                     include: ["browser/**/*.test.ts"],
                     globalSetup: ["browser/serve_page.ts"],
                     fileParallelism: false,
-                    // A browser that draws without a graphics card on a busy machine drops an event
-                    // once in hundreds of tests.
-                    retry: 1,
                 },
             },
         ],

@@ -8,6 +8,7 @@
 #include "embedding/checker.hh"
 #include "embedding/realisation.hh"
 #include "search/greedy_solver.hh"
+#include "search/sequence_solver.hh"
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
 #include "surface/strand_checker.hh"
 #endif
@@ -41,7 +42,7 @@ std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathG
                                     std::uint64_t field_bytes, const EmbedOptions& options)
 {
     if (options.algorithm == Algorithm::branch_and_bound) {
-        SequenceSolverOptions sequences = options.sequences;
+        SequenceSolverOptions sequences;
         sequences.branch_and_bound.gap = options.gap;
         return std::make_unique<SequenceSolver>(problem, graph, field_bytes, sequences);
     }

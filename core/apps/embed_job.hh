@@ -10,7 +10,6 @@
 #include "base/error.hh"
 #include "embedding/refined_mesh.hh"
 #include "layout/embedding_problem.hh"
-#include "search/sequence_solver.hh"
 #include "search/solver.hh"
 #include "surface/path_graph.hh"
 #include "surface/weak_embedding.hh"
@@ -60,8 +59,6 @@ struct EmbedOptions {
     std::optional<std::uint64_t> work_limit;
     /// Bytes the job may take, estimated before it starts.
     std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();
-    /// Switches of branch and bound for experiments; its tolerance is `gap`.
-    SequenceSolverOptions sequences;
 };
 
 /// A few seconds on the machines of today.

@@ -276,9 +276,9 @@ BranchAndBound::Outcome BranchAndBound::evaluate_child(WorkBudget& budget)
             return Outcome::running;
         }
         budget.charge(child_work(edge_count_));
-        begin_child(edge);
+        const Outcome outcome = begin_child(edge);
         if (!in_child_) {
-            return Outcome::finished;
+            return outcome;
         }
     }
     while (child_.next < child_.open.size()) {
@@ -314,21 +314,27 @@ BranchAndBound::Outcome BranchAndBound::evaluate_child(WorkBudget& budget)
     return finish_child(edge);
 }
 
-void BranchAndBound::begin_child(Index edge)
+/// Goes to the child; `running` if it is to be evaluated, `finished` if that is done already.
+BranchAndBound::Outcome BranchAndBound::begin_child(Index edge)
 {
     const Index walk = candidates_[edge];
     const std::uint64_t hash = nodes_[current_].hash + Random::mix(walk + 1);
     if (options_.detect_redundant_states && is_redundant(hash, walk)) {
         ++counters_.states_redundant;
         ++next_branch_;
-        return;
+        return Outcome::finished;
     }
     std::vector<Index> open = embedding_.conflicting_with(edge, candidates_);
-    if (!embedding_.insert(walk)) {
-        // A hole would get into the wrong face, and stay there.
-        drop(kInfiniteLength);
-        ++next_branch_;
-        return;
+    switch (embedding_.insert(walk)) {
+        case PartialEmbedding::Insertion::done:
+            break;
+        case PartialEmbedding::Insertion::refused:
+            // The hole would stay where it is.
+            drop(kInfiniteLength);
+            ++next_branch_;
+            return Outcome::finished;
+        case PartialEmbedding::Insertion::torn:
+            return Outcome::tied;
     }
     child_ = {};
     child_.bound = candidate_bound_;
@@ -339,7 +345,7 @@ void BranchAndBound::begin_child(Index edge)
             drop(kInfiniteLength);
             embedding_.undo();
             ++next_branch_;
-            return;
+            return Outcome::finished;
         }
         child_.bound += bound - candidate;
     }
@@ -348,9 +354,10 @@ void BranchAndBound::begin_child(Index edge)
         drop(child_.bound);
         embedding_.undo();
         ++next_branch_;
-        return;
+        return Outcome::finished;
     }
     in_child_ = true;
+    return Outcome::running;
 }
 
 BranchAndBound::Outcome BranchAndBound::finish_child(Index edge)
@@ -400,11 +407,18 @@ BranchAndBound::Outcome BranchAndBound::add_state(Index walk, std::uint64_t hash
 BranchAndBound::Outcome BranchAndBound::accept_candidates()
 {
     const std::size_t depth = embedding_.sequence().size();
-    bool fits = true;
-    for (Index e = 0; e < edge_count_ && fits; ++e) {
-        fits = embedding_.walk(e) != kNone || embedding_.insert(candidates_[e]);
+    auto insertion = PartialEmbedding::Insertion::done;
+    for (Index e = 0; e < edge_count_ && insertion == PartialEmbedding::Insertion::done; ++e) {
+        if (embedding_.walk(e) == kNone) {
+            insertion = embedding_.insert(candidates_[e]);
+        }
     }
-    const auto outcome = fits ? incumbent_.offer(embedding_) : Incumbent::Outcome::rejected;
+    auto outcome = Incumbent::Outcome::rejected;
+    if (insertion == PartialEmbedding::Insertion::done) {
+        outcome = incumbent_.offer(embedding_);
+    } else if (insertion == PartialEmbedding::Insertion::torn) {
+        outcome = Incumbent::Outcome::tied;
+    }
     while (embedding_.sequence().size() > depth) {
         embedding_.undo();
     }

@@ -93,7 +93,7 @@ private:
     Outcome find_root(WorkBudget& budget);
     bool take_node();
     Outcome evaluate_child(WorkBudget& budget);
-    void begin_child(Index edge);
+    Outcome begin_child(Index edge);
     Outcome finish_child(Index edge);
     void drop(Length bound);
     void end_child();

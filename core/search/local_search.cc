@@ -181,8 +181,13 @@ LocalSearch::Outcome LocalSearch::evaluate(WorkBudget& budget)
                 break;
         }
         budget.charge(kInsertionWork);
-        if (!embedding_.insert(answer.walk)) {
-            return Outcome::finished;
+        switch (embedding_.insert(answer.walk)) {
+            case PartialEmbedding::Insertion::done:
+                break;
+            case PartialEmbedding::Insertion::refused:
+                return Outcome::finished;
+            case PartialEmbedding::Insertion::torn:
+                return Outcome::tied;
         }
         rest_bound_ -= root;
         ++trial_next_;

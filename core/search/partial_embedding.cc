@@ -2,15 +2,11 @@
 
 #include <algorithm>
 
+#include "surface/stretch.hh"
+
 namespace layout_embedding {
 
 namespace {
-
-/// Whether x, y, z, all different, are in cyclic order.
-bool in_cyclic_order(Index x, Index y, Index z)
-{
-    return (x < y && y < z) || (y < z && z < x) || (z < x && x < y);
-}
 
 template <typename T>
 void sort_unique(std::vector<T>& values)
@@ -80,7 +76,7 @@ bool PartialEmbedding::in_order(Index halfedge, Index walk) const
     if (is_linear(v)) {
         return (before == kNone || place(before) < here) && (after == kNone || here < place(after));
     }
-    return before == after || in_cyclic_order(place(before), here, place(after));
+    return before == after || is_before(place(before), here, place(after));
 }
 
 bool PartialEmbedding::fits(Index walk) const
@@ -94,17 +90,20 @@ bool PartialEmbedding::fits(Index walk) const
     return in_order(2 * edge, walk) && in_order(2 * edge + 1, walk);
 }
 
-bool PartialEmbedding::insert(Index walk)
+PartialEmbedding::Insertion PartialEmbedding::insert(Index walk)
 {
     walks_[pool_.layout_edge(walk)] = walk;
     sequence_.push_back(walk);
     cost_ += pool_.cost(walk);
     ++insertion_count_;
-    if (has_holes_ && !(move_strands() && hole_guard_.accepts())) {
-        undo();
-        return false;
+    if (has_holes_) {
+        const bool moved = move_strands();
+        if (!moved || !hole_guard_.accepts()) {
+            undo();
+            return moved ? Insertion::refused : Insertion::torn;
+        }
     }
-    return true;
+    return Insertion::done;
 }
 
 void PartialEmbedding::undo()
@@ -180,8 +179,8 @@ bool PartialEmbedding::order_conflict(Index halfedge_a, Index walk_a, Index half
     }
     const Index h = embedded_at(v);
     return h != kNone &&
-           in_cyclic_order(pool_.place(h, walks_[Layout::edge(h)]), place_a, place_b) !=
-               in_cyclic_order(layout().rank(h), rank_a, rank_b);
+           is_before(pool_.place(h, walks_[Layout::edge(h)]), place_a, place_b) !=
+               is_before(layout().rank(h), rank_a, rank_b);
 }
 
 CandidateConflicts PartialEmbedding::conflicts(std::span<const Index> candidates) const
@@ -225,7 +224,7 @@ CandidateConflicts PartialEmbedding::conflicts(std::span<const Index> candidates
         for (std::size_t x = 0; x < open.size(); ++x) {
             for (std::size_t y = x + 1; y < open.size(); ++y) {
                 for (std::size_t z = y + 1; z < open.size(); ++z) {
-                    if (!in_cyclic_order(places[x], places[y], places[z])) {
+                    if (!is_before(places[x], places[y], places[z])) {
                         std::array<Index, 3> triple{Layout::edge(open[x]), Layout::edge(open[y]),
                                                     Layout::edge(open[z])};
                         std::sort(triple.begin(), triple.end());

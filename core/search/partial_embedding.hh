@@ -51,9 +51,15 @@ public:
 
     /// Whether a walk of an edge that is not embedded could be embedded now, holes aside.
     bool fits(Index walk) const;
-    /// Embeds a walk that fits; false, without any change, if a hole of the target would get into
-    /// the wrong layout face.
-    bool insert(Index walk);
+    enum class Insertion {
+        done,
+        /// Without any change: a hole of the target would get into the wrong layout face.
+        refused,
+        /// Without any change: the strands cannot be moved, see move_strands().
+        torn,
+    };
+    /// Embeds a walk that fits.
+    Insertion insert(Index walk);
     void undo();
     /// Goes to the state with these walks, which is one that can be built in this order.
     void go_to(std::span<const Index> sequence);

@@ -146,7 +146,8 @@ Length SequenceSolver::lower_bound() const
 
 BoundScope SequenceSolver::bound_scope() const
 {
-    return lower_bound() == root_bound_ ? BoundScope::embeddings : BoundScope::insertion_sequences;
+    const Length root_bound = std::max(root_bound_, branch_and_bound_.root_bound());
+    return lower_bound() == root_bound ? BoundScope::embeddings : BoundScope::insertion_sequences;
 }
 
 std::vector<Index> SequenceSolver::incumbent_order() const

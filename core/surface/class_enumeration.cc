@@ -44,7 +44,6 @@ ClassEnumeration::Outcome ClassEnumeration::run(Length limit, std::uint64_t max_
             return Outcome::running;
         }
         queue_.pop();
-        ++expansion_count_;
         states_[item.state].is_closed = true;
         const Index node = states_[item.state].node;
         if (node == goal_) {

@@ -46,8 +46,6 @@ public:
     Length cost() const { return cost_; }
     /// Every class that has not come up is at least this long.
     Length frontier() const;
-    /// States expanded so far.
-    std::uint64_t expansion_count() const { return expansion_count_; }
 
 private:
     struct State {
@@ -87,7 +85,6 @@ private:
     QuadHeap<QueueItem> queue_;
     std::vector<Index> darts_;
     Length cost_ = 0;
-    std::uint64_t expansion_count_ = 0;
 };
 
 /// Whether two passes of a walk cross: a stretch that both share, perhaps one node, is entered and

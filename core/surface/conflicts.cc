@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "surface/stretch.hh"
+
 namespace layout_embedding {
 
 namespace {
@@ -55,12 +57,6 @@ private:
     {
         const Index dart = (*walk.darts)[k + 1];
         return strands_.slot_place(graph_.tail(dart), dart, walk.trace.slots[k + 1]);
-    }
-
-    /// Whether x comes before y going counter-clockwise from `from`; all three differ.
-    static bool is_before(Index from, Index x, Index y)
-    {
-        return (from < x && x < y) || (x < y && y < from) || (y < from && from < x);
     }
 
     /// Whether the stretch that begins at inner node i of a and j of b, where the walks come

@@ -8,8 +8,6 @@ namespace layout_embedding {
 
 namespace {
 
-constexpr Words::Letter kNoLetter = 0;
-
 /// Per node the dart by which the shortest path to the root leaves it; kNone where no landmark's
 /// path comes by.
 class ShortestPathTree {
@@ -77,7 +75,7 @@ Index Words::times(Index word, Letter letter)
 }
 
 CutSystem::CutSystem(const PathGraph& graph, std::span<const Index> landmark_nodes, Index root)
-    : graph_(graph), root_(root)
+    : graph_(graph)
 {
     const ShortestPathTree tree(graph, landmark_nodes, landmark_nodes[root]);
     // The part of the tree that leads to landmarks: per node, the darts to its children.
@@ -155,14 +153,9 @@ std::span<const Index> CutSystem::crossed(Index node, Index dart) const
         .first(passed->second.crossed[dart - graph_.first_dart(node)]);
 }
 
-Index CutSystem::advance(Words& words, Index word, Index dart) const
-{
-    return advance(words, word, dart, root_);
-}
-
 Index CutSystem::advance(Words& words, Index word, Index dart, Index start) const
 {
-    const Words::Letter own = start == root_ ? kNoLetter : letter(start);
+    const Words::Letter own = letter(start);
     const auto times = [&](Words::Letter next) {
         const bool is_turn = word == Words::kEmpty && (next == own || next == -own);
         word = is_turn ? word : words.times(word, next);

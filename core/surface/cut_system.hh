@@ -49,17 +49,15 @@ public:
     /// over the whole graph.
     CutSystem(const PathGraph& graph, std::span<const Index> landmark_nodes, Index root);
 
-    Index root() const { return root_; }
     /// The letter of crossing the arc of a layout vertex, other than the root, from its right to
     /// its left (seen from the landmark to the root).
     static Words::Letter letter(Index layout_vertex)
     {
         return static_cast<Words::Letter>(layout_vertex) + 1;
     }
-    /// The word of a walk that goes on along a dart.
-    Index advance(Words& words, Index word, Index dart) const;
-    /// Likewise for words that only count up to turns around `start`, where the walk began: powers
-    /// of its letter at their beginning are left away.
+    /// The word of a walk that goes on along a dart. Words only count up to turns around the layout
+    /// vertex `start`, where the walk began and which is not the root: powers of its letter at their
+    /// beginning are left away.
     Index advance(Words& words, Index word, Index dart, Index start) const;
 
 private:
@@ -73,7 +71,6 @@ private:
     std::span<const Index> crossed(Index node, Index dart) const;
 
     const PathGraph& graph_;
-    Index root_;
     std::unordered_map<Index, Passed> passed_;  // by node; looked up, never iterated
 };
 

@@ -7,8 +7,9 @@
 
 namespace layout_embedding {
 
-/// Whether x comes before y going counter-clockwise from `from`; all three differ. The darts that
-/// leave a node are numbered counter-clockwise, so that it works on darts of one node.
+/// Whether x comes before y going around from `from`, that is whether the three, all different, are
+/// in cyclic order. The darts that leave a node are numbered counter-clockwise, so that it works on
+/// darts of one node, and as well on places and ranks around a landmark.
 inline bool is_before(Index from, Index x, Index y)
 {
     return (from < x && x < y) || (x < y && y < from) || (y < from && from < x);

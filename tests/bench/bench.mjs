@@ -73,6 +73,9 @@ await main(async () => {
             `\nskipped ${missing.length} instances: ${missing[0]}${missing.length > 1 ? " and others are" : " is"} missing; LAYOUT_EMBEDDING_DATA names the folder that has them`,
         );
     }
+    if (results.length === 0) {
+        throw new StepError("no instance was run, so nothing was measured");
+    }
     const verdict = options.check ? judge(results) : [];
     if (options.check) {
         printVerdict(verdict);

@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
@@ -18,21 +16,10 @@
 #include "layout/landmark_reader.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
+#include "native_tool.hh"
 
 namespace layout_embedding {
 namespace {
-
-std::string bytes_of(const char* path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-int fail(const Error& error)
-{
-    std::fprintf(stderr, "%s\n", error.message.c_str());
-    return 2;
-}
 
 int run(char** arguments)
 {

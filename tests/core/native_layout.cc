@@ -5,8 +5,6 @@
 // Prints the layout as OBJ, byte for byte what the package has to make of the same input.
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "layout/landmark_reader.hh"
@@ -14,21 +12,10 @@
 #include "mesh/mesh_reader.hh"
 #include "mesh/mesh_writer.hh"
 #include "mesh/validation.hh"
+#include "native_tool.hh"
 
 namespace layout_embedding {
 namespace {
-
-std::string bytes_of(const char* path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-int fail(const Error& error)
-{
-    std::fprintf(stderr, "%s\n", error.message.c_str());
-    return 2;
-}
 
 int run(char** arguments)
 {

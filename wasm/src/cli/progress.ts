@@ -20,10 +20,16 @@ export class ProgressLine {
             return;
         }
         this.shown = now;
-        const share = `${String(Math.round(100 * progress.progress))} %`;
-        const cost = Number.isFinite(progress.cost) ? `, cost ${progress.cost.toPrecision(6)}` : "";
+        const { phase, cost, lowerBound, seconds } = progress;
+        const found = Number.isFinite(cost);
+        // Once there is an embedding, nobody knows how long it takes to find a better one.
+        const share =
+            phase === "search" && found ? "" : ` ${String(Math.round(100 * progress.progress))} %`;
+        const quality = found
+            ? `, cost ${cost.toPrecision(6)}, gap ${(100 * (1 - lowerBound / cost)).toFixed(2)} %`
+            : "";
         process.stderr.write(
-            `\r\x1b[K${names[progress.phase]} ${share}${cost}, ${progress.seconds.toFixed(1)} s`,
+            `\r\x1b[K${names[phase]}${share}${quality}, ${seconds.toFixed(1)} s`,
         );
     }
 

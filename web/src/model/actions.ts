@@ -1,6 +1,6 @@
 import type { MeshInput, SolveOptions } from "layout-embedding";
 import type { Example } from "../examples/index.js";
-import { phaseWords, titleOf } from "./describe.js";
+import { improvingWords, phaseWords, titleOf } from "./describe.js";
 import type { Engine } from "./engine.js";
 import { assignRoles, look } from "./files.js";
 import type { Activity, AppState, Item, Problem } from "./state.js";
@@ -273,8 +273,16 @@ export class Actions {
             onProgress: ({ phase, progress, cost, lowerBound, paths }) => {
                 const { activity: current } = this.store.get();
                 if (!current) return;
+                // Once there is an embedding, nobody knows how long it takes to find a better one.
+                const improving = phase === "search" && Number.isFinite(cost);
                 this.store.update({
-                    activity: { ...current, phase: phaseWords[phase], progress, cost, lowerBound },
+                    activity: {
+                        ...current,
+                        phase: improving ? improvingWords : phaseWords[phase],
+                        progress: improving ? null : progress,
+                        cost,
+                        lowerBound,
+                    },
                     ...(paths ? { livePaths: paths } : {}),
                 });
             },

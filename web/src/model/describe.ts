@@ -24,6 +24,9 @@ export const phaseWords: Record<EmbedPhase, string> = {
     done: "Done",
 };
 
+/** The search phase once there is an embedding. */
+export const improvingWords = "Looking for a shorter embedding";
+
 export const statusWords: Record<EmbedStatus, string> = {
     optimal: "Solved: proved to be the shortest",
     gapReached: "Solved to the gap asked for",
