@@ -1,10 +1,12 @@
 // The steps that make everything, each of which does only what changed; `npm run build` runs them.
 import { existsSync, readFileSync, rmSync } from "node:fs";
+import { availableParallelism } from "node:os";
 import path from "node:path";
 import { hashOf, main, once, root, run, runNpm, say } from "./run.mjs";
 import { emscriptenRoot, ensureSystemPackages } from "./system.mjs";
 
-const jobs = ["-j", "2"];
+/** Compilers and tests run side by side; each may want 2 GB. */
+export const jobs = ["-j", String(Math.max(2, availableParallelism()))];
 
 /** npm packages from the lockfile. */
 export async function installPackages() {

@@ -7,26 +7,46 @@ import { stripVTControlCharacters } from "node:util";
  * "skipped"; `errors` are failures that belong to no single test, a crash for example.
  */
 
-/** The tests in a JUnit file written by `ctest --output-junit`. */
+/**
+ * The tests in a JUnit file written by `ctest --output-junit`. One CTest test may be a process that
+ * runs many tests of GoogleTest: what these did is read from its log.
+ */
 export function readCtest(file) {
     if (!existsSync(file)) {
         return { tests: [], errors: ["CTest wrote no report"] };
     }
     const xml = readFileSync(file, "utf8");
-    const tests = [...xml.matchAll(/<testcase\b([^>]*?)(?:\/>|>([\s\S]*?)<\/testcase>)/g)].map(
+    const tests = [...xml.matchAll(/<testcase\b([^>]*?)(?:\/>|>([\s\S]*?)<\/testcase>)/g)].flatMap(
         ([, attributes, content = ""]) => {
             const log = unescapeXml(
                 /<system-out>([\s\S]*?)<\/system-out>/.exec(content)?.[1] ?? "",
             );
             const state = ctestState(attribute(attributes, "status"), content);
-            return {
-                name: attribute(attributes, "name"),
-                state,
-                message: digest(state, log, content),
-            };
+            const inside = testsInLog(log);
+            const told = inside.some((test) => test.state === "failed");
+            if (inside.length > 0 && (state !== "failed" || told)) {
+                return inside;
+            }
+            // A process may fail without any of its tests, for memory it has leaked for example.
+            const name = attribute(attributes, "name");
+            return [...inside, { name, state, message: digest(state, log, content) }];
         },
     );
     return { tests, errors: [] };
+}
+
+/** The tests in a log of GoogleTest; one that began and never ended has failed. */
+function testsInLog(log) {
+    return log
+        .split(/^\[ RUN {6}\] /m)
+        .slice(1)
+        .map((part) => {
+            const [name] = part.split("\n", 1);
+            const end = /^\[ *(OK|SKIPPED|FAILED) *\] .*$/m.exec(part);
+            const state = { OK: "passed", SKIPPED: "skipped" }[end?.[1]] ?? "failed";
+            const text = part.slice(name.length + 1, end?.index);
+            return { name, state, message: digest(state, text, "") };
+        });
 }
 
 function ctestState(status, content) {

@@ -1,10 +1,12 @@
 // What every script here needs: where the project is, running commands, and stamps that tell
 // whether a step has to be done again. Node's own modules only, since nothing is installed yet when
 // these scripts start.
+import { AsyncLocalStorage } from "node:async_hooks";
 import { spawn, spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
+import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 
 export const root = fileURLToPath(new URL("..", import.meta.url)).replace(/\/$/, "");
@@ -14,6 +16,14 @@ export class StepError extends Error {}
 
 let quiet = false;
 
+/** The label of the lane that the current code runs in, see inLane(). */
+const laneLabel = new AsyncLocalStorage();
+
+/** Runs `action` beside others: every line that it prints begins with the label. */
+export function inLane(label, action) {
+    return laneLabel.run(label, action);
+}
+
 /** Keeps everything off the terminal but errors, which go to stderr; for `npm run cli`. */
 export function beQuiet() {
     quiet = true;
@@ -21,26 +31,33 @@ export function beQuiet() {
 
 export function say(line) {
     if (!quiet) {
-        console.log(line);
+        const label = laneLabel.getStore();
+        console.log(label === undefined ? line : line.replace(/^/gm, `${label} │ `));
     }
 }
 
 /**
- * Runs a command in the project's root and waits for it. Its output goes to the terminal; when
- * quiet, it is kept back and shown only if the command fails.
+ * Runs a command in the project's root and waits for it. Its output goes to the terminal, in a lane
+ * line by line with the label; when quiet, it is kept back and shown only if the command fails.
  *
  * Resolves to the exit code; throws a StepError for any code but 0 unless `allowFailure` is set.
  */
 export function run(command, args, { env = {}, allowFailure = false, cwd = root } = {}) {
     return new Promise((resolve, reject) => {
+        const inherit = !quiet && laneLabel.getStore() === undefined;
         const child = spawn(command, args, {
             cwd,
             env: { ...process.env, ...env },
-            stdio: quiet ? ["ignore", "pipe", "pipe"] : ["ignore", "inherit", "inherit"],
+            stdio: inherit ? ["ignore", "inherit", "inherit"] : ["ignore", "pipe", "pipe"],
         });
         const output = [];
-        child.stdout?.on("data", (chunk) => output.push(chunk));
-        child.stderr?.on("data", (chunk) => output.push(chunk));
+        for (const stream of inherit ? [] : [child.stdout, child.stderr]) {
+            if (quiet) {
+                stream.on("data", (chunk) => output.push(chunk));
+            } else {
+                createInterface({ input: stream }).on("line", say);
+            }
+        }
         child.on("error", (error) =>
             reject(new StepError(`${command} could not be started: ${error.message}`)),
         );

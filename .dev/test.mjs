@@ -1,37 +1,51 @@
 // npm test: sets everything up, builds it, runs all tests and prints one summary, whose last line is
-// "N passed, N failed, N skipped". A part that fails does not keep later parts from running.
+// "N passed, N failed, N skipped". A part that fails does not keep the others from running.
 //   npm test -- [--only PART]...      parts: release, debug, node, browser
 import { mkdirSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { parseArgs } from "node:util";
-import { buildPackage, buildPage, buildPreset, installPackages } from "./build.mjs";
+import { buildPackage, buildPage, buildPreset, installPackages, jobs } from "./build.mjs";
 import { printSummary, readCtest, readVitest } from "./reports.mjs";
-import { StepError, main, root, run, say } from "./run.mjs";
+import { StepError, inLane, main, root, run, say } from "./run.mjs";
 import { ensureSystemPackages } from "./system.mjs";
 
 const results = path.join(root, "build/test-results");
 
+/** Builds that more than one part waits for are made once. */
+const builds = new Map();
+function built(key, build) {
+    if (!builds.has(key)) {
+        builds.set(key, build());
+    }
+    return builds.get(key);
+}
+const packageBuilt = () => built("package", buildPackage);
+const presetBuilt = (preset) => built(preset, () => buildPreset(preset));
+
 /** The C++ tests of a preset, run by CTest. */
 function ctest(preset, ...selection) {
     return async () => {
-        await buildPreset(preset);
+        await presetBuilt(preset);
         const report = path.join(results, `${preset}.xml`);
+        // What every single test did is read from the logs, see reports.mjs: none may be cut short.
+        const everything = ["passed", "failed"].flatMap((end) => [
+            `--test-output-size-${end}`,
+            "100000000",
+        ]);
         const reporting = ["--output-on-failure", "--no-tests=error", "--output-junit", report];
         const exitCode = await run(
             "ctest",
-            ["--test-dir", `build/${preset}`, "-j", "2", ...selection, ...reporting],
+            ["--test-dir", `build/${preset}`, ...jobs, ...selection, ...reporting, ...everything],
             { allowFailure: true },
         );
         return { ...readCtest(report), exitCode };
     };
 }
 
-/** One of the projects in tests/vitest.config.ts, after the builds it needs. */
-function vitest(project, ...builds) {
-    return async () => {
-        for (const build of builds) {
-            await build();
-        }
+/** One of the projects in tests/vitest.config.ts, after what it needs is built. */
+function vitest(project, buildAll) {
+    return async (chosen) => {
+        await buildAll(chosen);
         const report = path.join(results, `${project}.json`);
         const program = path.join(root, "node_modules/vitest/vitest.mjs");
         const reporters = ["default", path.join(root, ".dev/vitest_reporter.mjs")];
@@ -50,9 +64,30 @@ const parts = {
     release: { name: "C++, release", run: ctest("release") },
     // With sanitizers everything is an order of magnitude slower. Short fuzz runs are among them.
     debug: { name: "C++, sanitizers", run: ctest("debug", "-LE", "slow") },
-    node: { name: "Node", run: vitest("node", buildPackage) },
-    browser: { name: "Browser", run: vitest("browser", buildPackage, buildPage) },
+    node: {
+        name: "Node",
+        run: vitest("node", async (chosen) => {
+            await packageBuilt();
+            // Some tests compare the package with the native build.
+            if (chosen.includes("release")) {
+                await presetBuilt("release");
+            }
+        }),
+    },
+    browser: {
+        name: "Browser",
+        run: vitest("browser", async () => {
+            await packageBuilt();
+            await buildPage();
+        }),
+    },
 };
+
+// Two lanes side by side: downloads, links and a browser that waits leave a core idle.
+const lanes = [
+    ["release", "debug"],
+    ["browser", "node"],
+];
 
 await main(async () => {
     const chosen = choose();
@@ -60,24 +95,33 @@ await main(async () => {
     await installPackages();
     rmSync(results, { recursive: true, force: true });
     mkdirSync(results, { recursive: true });
-    const outcomes = [];
-    for (const key of chosen) {
-        const { name, run: runPart } = parts[key];
-        say(`\n== ${name}`);
-        const start = performance.now();
-        let outcome;
-        try {
-            outcome = await runPart();
-        } catch (error) {
-            const message = error instanceof StepError ? error.message : error.stack;
-            console.error(message);
-            outcome = { tests: [], errors: [message], exitCode: 1 };
+    const outcomes = new Map();
+    const runLane = async (lane) => {
+        for (const key of lane.filter((part) => chosen.includes(part))) {
+            outcomes.set(key, await inLane(key.padEnd(7), () => runPart(key, chosen)));
         }
-        outcomes.push({ name, ...outcome, seconds: (performance.now() - start) / 1000 });
-    }
-    writeFileSync(path.join(results, "summary.json"), JSON.stringify(outcomes, null, 1));
-    return printSummary(outcomes).failed > 0 ? 1 : 0;
+    };
+    await Promise.all(lanes.map(runLane));
+    const inOrder = chosen.map((key) => outcomes.get(key));
+    writeFileSync(path.join(results, "summary.json"), JSON.stringify(inOrder, null, 1));
+    return printSummary(inOrder).failed > 0 ? 1 : 0;
 });
+
+/** A part's outcome; one that cannot even be built has failed. */
+async function runPart(key, chosen) {
+    const { name, run: runTests } = parts[key];
+    say(`== ${name}`);
+    const start = performance.now();
+    let outcome;
+    try {
+        outcome = await runTests(chosen);
+    } catch (error) {
+        const message = error instanceof StepError ? error.message : error.stack;
+        say(message);
+        outcome = { tests: [], errors: [message], exitCode: 1 };
+    }
+    return { name, ...outcome, seconds: (performance.now() - start) / 1000 };
+}
 
 function choose() {
     const { values } = parseArgs({ options: { only: { type: "string", multiple: true } } });
