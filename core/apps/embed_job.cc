@@ -7,6 +7,8 @@
 #include "embedding/check_input.hh"
 #include "embedding/checker.hh"
 #include "embedding/realisation.hh"
+#include "embedding/straightening.hh"
+#include "embedding/weak_to_normal_form.hh"
 #include "search/greedy_solver.hh"
 #include "search/sequence_solver.hh"
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
@@ -23,6 +25,8 @@ constexpr std::uint64_t kWorkPerSlice = 4096;
 constexpr std::uint64_t kMaxFieldBytes = std::uint64_t{256} << 20U;
 // Perturbations drawn before a tie is reported.
 constexpr std::uint32_t kMaxAttempts = 8;
+// Progress of the paths' shape between two events.
+constexpr double kProgressStep = 0.1;
 
 GreedyRule rule_of(Algorithm algorithm)
 {
@@ -85,6 +89,9 @@ struct EmbedJob::Implementation {
     std::uint64_t work = 0;
     std::uint64_t first_embedding_work = UINT64_MAX;
     EmbedStatus final_status = EmbedStatus::running;  // once an incumbent is to be realised
+    EmbedStatus search_status = EmbedStatus::running;
+    std::unique_ptr<Straightening> straightening;  // while paths get their shape
+    double shown_progress = 0;
 
     double seconds() const
     {
@@ -122,7 +129,7 @@ struct EmbedJob::Implementation {
             end(reason);
             return;
         }
-        final_status = reason;
+        final_status = search_status = reason;
         set_lower_bound(solver->lower_bound(), solver->bound_scope());
         result.insertion_order = solver->incumbent_order();
         solver.reset();
@@ -296,15 +303,72 @@ struct EmbedJob::Implementation {
         emit(EventKind::incumbent, solver->progress());
     }
 
+    /// One step on the way from the incumbent to the refined mesh.
     void realise_embedding()
     {
-        auto refined = realise(problem, *graph, result.weak);
+        const std::clock_t cpu_start = std::clock();
+        if (!straightening) {
+            result.shape_seconds = 0;
+            auto form = normal_form_of(problem, *graph, result.weak);
+            if (!form) {
+                fail(EmbedStatus::failed, form.error());
+                return;
+            }
+            measure_edges(*form);
+            if (options.shape == PathShape::even) {
+                cut(*form);
+                return;
+            }
+            straightening = std::make_unique<Straightening>(std::move(*form), problem.landmarks);
+            shown_progress = 0;
+        } else if (straightening->step()) {
+            if (straightening->progress() > shown_progress + kProgressStep) {
+                shown_progress = straightening->progress();
+                emit(EventKind::progress, shown_progress);
+            }
+        } else {
+            cut(straightening->take());
+            straightening.reset();
+            return;
+        }
+        result.shape_seconds += static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+    }
+
+    void measure_edges(const NormalForm& even)
+    {
+        result.edge_costs.clear();
+        result.even_lengths.clear();
+        for (Index edge = 0; edge < even.strand_count(); ++edge) {
+            Length cost = 0;
+            for (const Index dart : result.weak.paths[edge].darts) {
+                cost += graph->dart(dart).length;
+            }
+            result.edge_costs.push_back(graph->to_units(cost));
+            result.even_lengths.push_back(even.length(edge));
+        }
+    }
+
+    void cut(const NormalForm& form)
+    {
+        const std::clock_t cpu_start = std::clock();
+        auto refined = cut_along(*problem.layout, form);
         if (!refined) {
             fail(EmbedStatus::failed, refined.error());
             return;
         }
         result.refined = std::move(*refined);
+        result.quality = triangle_quality(result.refined->positions, result.refined->corners);
+        result.cut_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
         enter(EmbedPhase::check);
+    }
+
+    /// Leaves the paths as far as they are.
+    void end_shape()
+    {
+        if (phase == EmbedPhase::realise && straightening) {
+            straightening->finish();
+            final_status = EmbedStatus::cancelled;
+        }
     }
 
     void check()
@@ -396,7 +460,23 @@ bool EmbedJob::step(const StepBudget& budget)
 void EmbedJob::cancel()
 {
     implementation_->cancel_requested = true;
+    implementation_->end_shape();
 }
+
+bool EmbedJob::reshape(PathShape shape)
+{
+    Implementation& job = *implementation_;
+    if (job.phase != EmbedPhase::done || !job.result.refined) {
+        return false;
+    }
+    job.options.shape = shape;
+    job.final_status = job.search_status;
+    job.result.status = EmbedStatus::running;
+    job.result.refined.reset();
+    job.enter(EmbedPhase::realise);
+    return true;
+}
+
 const EmbeddingProblem& EmbedJob::problem() const
 {
     return implementation_->problem;

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "base/error.hh"
+#include "embedding/path_shape.hh"
 #include "embedding/refined_mesh.hh"
+#include "embedding/triangle_quality.hh"
 #include "layout/embedding_problem.hh"
 #include "search/solver.hh"
 #include "surface/path_graph.hh"
@@ -57,6 +59,7 @@ struct EmbedOptions {
     /// and bound stops kDefaultPatience units after its first embedding, or, while there is none,
     /// after what two searches of the whole path graph per layout edge would take.
     std::optional<std::uint64_t> work_limit;
+    PathShape shape = PathShape::shortened;
     /// Bytes the job may take, estimated before it starts.
     std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();
 };
@@ -71,7 +74,7 @@ enum class EventKind : std::uint32_t {
     incumbent,
     /// The lower bound rose.
     bound,
-    /// One more path was embedded; nothing is complete yet.
+    /// One more path was embedded, nothing is complete yet; or paths were made shorter.
     progress,
 };
 
@@ -122,6 +125,15 @@ struct EmbedResult {
     WeakEmbedding weak;
     /// Present once an embedding was realised and passed the checker.
     std::optional<RefinedMesh> refined;
+    /// Per layout edge: what it contributes to `cost`.
+    std::vector<double> edge_costs;
+    /// Per layout edge: the length on the surface of its chain in the shape `even`, for comparison.
+    std::vector<double> even_lengths;
+    /// Of the refined mesh.
+    TriangleQuality quality;
+    /// CPU seconds that the paths' shape took, and cutting the target along them.
+    double shape_seconds = 0;
+    double cut_seconds = 0;
     /// Layout edges in the order in which they were embedded.
     std::vector<Index> insertion_order;
     EmbedCounters counters;
@@ -155,12 +167,17 @@ public:
     EmbedJob(EmbedJob&&) noexcept;
     EmbedJob& operator=(EmbedJob&&) noexcept;
 
-    /// Does some work; false once the job has ended. Preparing, realising and checking are not
-    /// interrupted.
+    /// Does some work; false once the job has ended. Preparing, cutting and checking are not
+    /// interrupted, and only the search counts as work.
     bool step(const StepBudget& budget = {});
 
-    /// Ends the search at the next step(); an incumbent is still realised and checked. Idempotent.
+    /// Ends the search at the next step(); an incumbent is still realised, in its shape, and
+    /// checked. Called while paths get their shape, it leaves them as far as they are. Idempotent.
     void cancel();
+
+    /// Gives the paths of a job that has ended with an embedding another shape, without a new
+    /// search: to be stepped to its end again. False if there is no embedding.
+    bool reshape(PathShape shape);
 
     const EmbeddingProblem& problem() const;
     const EmbedOptions& options() const;

@@ -9,7 +9,8 @@ NormalForm::NormalForm(const TriangleMesh& mesh, Index strand_count)
       strand_firsts_(strand_count, kNone),
       strand_lasts_(strand_count, kNone),
       edge_firsts_(mesh.edge_count(), kNone),
-      edge_lasts_(mesh.edge_count(), kNone)
+      edge_lasts_(mesh.edge_count(), kNone),
+      edge_counts_(mesh.edge_count(), 0)
 {}
 
 Vec3 NormalForm::position(Index id) const
@@ -21,6 +22,27 @@ Vec3 NormalForm::position(Index id) const
     const Index h = mesh_->halfedge(edge(id));
     return (1 - e.parameter) * mesh_->position(mesh_->tail(h)) +
            e.parameter * mesh_->position(mesh_->head(h));
+}
+
+double NormalForm::length(Index strand) const
+{
+    double sum = 0;
+    Vec3 here = position(strand_firsts_[strand]);
+    for (Index id = elements_[strand_firsts_[strand]].next; id != kNone; id = elements_[id].next) {
+        const Vec3 there = position(id);
+        sum += (there - here).norm();
+        here = there;
+    }
+    return sum;
+}
+
+double NormalForm::total_length() const
+{
+    double sum = 0;
+    for (Index strand = 0; strand < strand_count(); ++strand) {
+        sum += length(strand);
+    }
+    return sum;
 }
 
 Index NormalForm::segment_face(Index id) const
@@ -56,22 +78,36 @@ Index NormalForm::segment_edge(Index id) const
     return kNone;
 }
 
+Index NormalForm::new_element()
+{
+    if (unused_.empty()) {
+        elements_.emplace_back();
+        return element_count() - 1;
+    }
+    const Index id = unused_.back();
+    unused_.pop_back();
+    return id;
+}
+
 Index NormalForm::add_vertex(Index vertex)
 {
-    elements_.emplace_back().vertex = vertex;
-    return element_count() - 1;
+    const Index id = new_element();
+    elements_[id].vertex = vertex;
+    return id;
 }
 
 Index NormalForm::add_crossing(Index halfedge)
 {
-    elements_.emplace_back().halfedge = halfedge;
-    return element_count() - 1;
+    const Index id = new_element();
+    elements_[id].halfedge = halfedge;
+    return id;
 }
 
 void NormalForm::append_to_strand(Index strand, Index id)
 {
     Index& last = strand_lasts_[strand];
     elements_[id].previous = last;
+    elements_[id].strand = strand;
     (last == kNone ? strand_firsts_[strand] : elements_[last].next) = id;
     last = id;
 }
@@ -83,6 +119,7 @@ void NormalForm::append_to_edge(Index crossing)
     elements_[crossing].edge_previous = last;
     (last == kNone ? edge_firsts_[e] : elements_[last].edge_next) = crossing;
     last = crossing;
+    ++edge_counts_[e];
 }
 
 void NormalForm::erase_crossing(Index crossing)
@@ -96,7 +133,82 @@ void NormalForm::erase_crossing(Index crossing)
         x.edge_next;
     (x.edge_next == kNone ? edge_lasts_[e] : elements_[x.edge_next].edge_previous) =
         x.edge_previous;
+    --edge_counts_[e];
     x = Element{};
+    unused_.push_back(crossing);
+}
+
+Index NormalForm::snap_to_vertex(Index first, Index last, Index vertex)
+{
+    const Index strand = elements_[first].strand;
+    const Index before = elements_[first].previous;
+    const Index after = elements_[last].next;
+    for (Index id = first; id != after;) {
+        const Index next = elements_[id].next;
+        erase_crossing(id);
+        id = next;
+    }
+    const Index id = add_vertex(vertex);
+    elements_[id].strand = strand;
+    elements_[id].previous = before;
+    elements_[id].next = after;
+    elements_[before].next = id;
+    elements_[after].previous = id;
+    return id;
+}
+
+void NormalForm::pop_off_vertex(Index id, std::span<const Index> halfedges,
+                                std::span<const double> distances)
+{
+    const Element vertex = elements_[id];
+    elements_[id] = Element{};
+    unused_.push_back(id);
+    Index before = vertex.previous;
+    for (std::size_t i = 0; i < halfedges.size(); ++i) {
+        const Index h = halfedges[i];
+        const Index e = mesh_->edge(h);
+        const bool at_tail = mesh_->tail(mesh_->halfedge(e)) == vertex.vertex;
+        const Index crossing = add_crossing(h);
+        Element& x = elements_[crossing];
+        x.strand = vertex.strand;
+        x.parameter = at_tail ? distances[i] : 1 - distances[i];
+        x.previous = before;
+        elements_[before].next = crossing;
+        before = crossing;
+        if (at_tail) {
+            x.edge_next = edge_firsts_[e];
+            (x.edge_next == kNone ? edge_lasts_[e] : elements_[x.edge_next].edge_previous) =
+                crossing;
+            edge_firsts_[e] = crossing;
+        } else {
+            x.edge_previous = edge_lasts_[e];
+            (x.edge_previous == kNone ? edge_firsts_[e] : elements_[x.edge_previous].edge_next) =
+                crossing;
+            edge_lasts_[e] = crossing;
+        }
+        ++edge_counts_[e];
+    }
+    elements_[before].next = vertex.next;
+    elements_[vertex.next].previous = before;
+}
+
+bool NormalForm::remove_bigon(Index id)
+{
+    bool found = false;
+    while (id != kNone && elements_[id].next != kNone && is_bigon(id, elements_[id].next)) {
+        found = true;
+        const Index next = elements_[id].next;
+        const Index before = elements_[id].previous;
+        const bool first_crosses = elements_[id].is_crossing();
+        if (elements_[next].is_crossing()) {
+            erase_crossing(next);
+        }
+        if (first_crosses) {
+            erase_crossing(id);
+            id = before;
+        }
+    }
+    return found;
 }
 
 bool NormalForm::is_bigon(Index a, Index b) const
@@ -179,6 +291,7 @@ void NormalForm::compact()
         renumber(strand_lasts_[strand]);
     }
     elements_ = std::move(kept);
+    unused_.clear();
 }
 
 void NormalForm::spread_evenly()

@@ -21,7 +21,7 @@ namespace layout_embedding {
 /// common landmarks. A vertex that is no landmark carries at most one strand. Boundary edges are
 /// never crossed.
 ///
-/// Elements are 0-based ids; an erased one keeps its id, unused, until compact().
+/// Elements are 0-based ids; those of erased ones are given to new ones.
 class NormalForm {
 public:
     struct Element {
@@ -39,6 +39,8 @@ public:
         /// A crossing: the neighbours along the edge; kNone at the ends.
         Index edge_previous = kNone;
         Index edge_next = kNone;
+        /// The strand it belongs to.
+        Index strand = kNone;
 
         bool is_crossing() const { return halfedge != kNone; }
     };
@@ -59,10 +61,16 @@ public:
     /// kNone where nothing crosses.
     Index first_on_edge(Index edge) const { return edge_firsts_[edge]; }
     Index last_on_edge(Index edge) const { return edge_lasts_[edge]; }
+    /// How many crossings an edge has.
+    Index crossing_count(Index edge) const { return edge_counts_[edge]; }
     /// The mesh edge of a crossing.
     Index edge(Index crossing) const { return mesh_->edge(elements_[crossing].halfedge); }
     /// The position of an element on the mesh.
     Vec3 position(Index id) const;
+    /// The length of a strand on the mesh. O(elements of the strand).
+    double length(Index strand) const;
+    /// Of all strands.
+    double total_length() const;
 
     /// The face that the segment from `id` to its next element runs in; kNone where it runs from
     /// vertex to vertex along an edge (see segment_edge). O(1).
@@ -80,6 +88,25 @@ public:
     // Changing.
     /// Takes a crossing out of its strand and its edge. O(1).
     void erase_crossing(Index crossing);
+    /// Moves a crossing along its edge; to keep the order on the edge is the caller's business.
+    void set_parameter(Index crossing, double parameter)
+    {
+        elements_[crossing].parameter = parameter;
+    }
+    /// Puts a vertex in the place of the consecutive crossings `first` .. `last` of a strand. They
+    /// cross edges at this vertex, and there is no other crossing between it and them; so the
+    /// strand moves onto the vertex without meeting another one. The vertex carries no strand.
+    /// Returns the new element. O(crossings).
+    Index snap_to_vertex(Index first, Index last, Index vertex);
+    /// The reverse: puts crossings in the place of an inner vertex element, one for each of
+    /// `halfedges` (Element::halfedge), in order. Their edges end at the vertex and are all those
+    /// on one side of the strand; each crossing becomes the one nearest to the vertex. `distances`
+    /// are measured from the vertex as parameters. O(crossings).
+    void pop_off_vertex(Index id, std::span<const Index> halfedges,
+                        std::span<const double> distances);
+    /// Erases the bigon of `id` and the next element of its strand, and those that this makes of
+    /// their neighbours; false if there is none.
+    bool remove_bigon(Index id);
     /// Erases every bigon: two consecutive crossings of one edge, and a crossing next to a vertex
     /// that its edge ends at. What lies inside a bigon belongs to bigons too, so strands stay
     /// disjoint, and each moves by an isotopy that fixes the vertices. Returns the number of
@@ -92,6 +119,7 @@ public:
     void spread_evenly();
 
 private:
+    Index new_element();
     /// Whether two consecutive elements are a bigon.
     bool is_bigon(Index a, Index b) const;
 
@@ -101,6 +129,8 @@ private:
     std::vector<Index> strand_lasts_;   // per strand
     std::vector<Index> edge_firsts_;    // per mesh edge
     std::vector<Index> edge_lasts_;     // per mesh edge
+    std::vector<Index> edge_counts_;    // per mesh edge
+    std::vector<Index> unused_;         // erased elements
 };
 
 }  // namespace layout_embedding

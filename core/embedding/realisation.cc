@@ -380,6 +380,11 @@ Result<RefinedMesh> MeshCutter::run()
 
 }  // namespace
 
+Result<RefinedMesh> cut_along(const Layout& layout, const NormalForm& form)
+{
+    return MeshCutter(layout, form).run();
+}
+
 Result<RefinedMesh> realise(const EmbeddingProblem& problem, const PathGraph& graph,
                             const WeakEmbedding& embedding)
 {
@@ -387,7 +392,7 @@ Result<RefinedMesh> realise(const EmbeddingProblem& problem, const PathGraph& gr
     if (!form) {
         return form.error();
     }
-    return MeshCutter(*problem.layout, *form).run();
+    return cut_along(*problem.layout, *form);
 }
 
 }  // namespace layout_embedding

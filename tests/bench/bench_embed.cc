@@ -238,6 +238,30 @@ std::string counters_json(const EmbedCounters& counters)
         .json();
 }
 
+/// How long the chains are on the surface, and how good the triangles beside them.
+std::string paths_json(const EmbedResult& result)
+{
+    double even = 0;
+    for (const double length : result.even_lengths) {
+        even += length;
+    }
+    double length = 0;
+    if (result.refined) {
+        for (const std::vector<Index>& chain : result.refined->chains) {
+            for (std::size_t i = 1; i < chain.size(); ++i) {
+                length +=
+                    (result.refined->positions[chain[i]] - result.refined->positions[chain[i - 1]])
+                        .norm();
+            }
+        }
+    }
+    return Object()
+        .put("length", length)
+        .put("evenLength", even)
+        .put("smallestAngle", result.quality.smallest_angle)
+        .json();
+}
+
 int run(const Arguments& arguments)
 {
     auto problem = load(arguments);
@@ -285,8 +309,11 @@ int run(const Arguments& arguments)
                         .put("first", record.first)
                         .put("best", record.best)
                         .put("end", record.end)
+                        .put("shape", result.shape_seconds)
+                        .put("cut", result.cut_seconds)
                         .put("total", total)
                         .json())
+        .put("paths", paths_json(result))
         .put("memory", Object()
                            .put("search", record.search_megabytes)
                            .put("peak", std::max(load_peak, peak_megabytes()))

@@ -380,6 +380,38 @@ TEST(EmbedJob, can_be_cancelled_at_any_moment_and_keeps_what_it_has)
     ASSERT_TRUE(dropped.step({std::numeric_limits<double>::infinity(), 50}));
 }
 
+TEST(EmbedJob, paths_can_get_another_shape_without_a_new_search)
+{
+    for (const Input& input : all_inputs()) {
+        SCOPED_TRACE(input.name);
+        EmbedOptions options = with_seed(1);
+        EmbedJob job(input.problem(), options);
+        EXPECT_FALSE(job.reshape(PathShape::even));
+        finish(job);
+        if (!job.result().refined) {
+            EXPECT_FALSE(job.reshape(PathShape::even));
+            continue;
+        }
+        options.shape = PathShape::even;
+        EmbedJob even(input.problem(), options);
+        finish(even);
+        const EmbedResult before = job.result();
+        ASSERT_TRUE(job.reshape(PathShape::even));
+        finish(job, 1);
+        EXPECT_EQ(job.result().status, before.status);
+        expect_same_results(job.result(), even.result());
+        ASSERT_TRUE(job.reshape(PathShape::shortened));
+        finish(job, 1);
+        expect_same_results(job.result(), before);
+        EXPECT_EQ(job.result().even_lengths, before.even_lengths);
+        double cost = 0;
+        for (const double share : before.edge_costs) {
+            cost += share;
+        }
+        EXPECT_NEAR(cost, before.cost, 1e-9 * cost);
+    }
+}
+
 TEST(EmbedJob, no_time_at_all_ends_at_the_time_limit)
 {
     EmbedOptions options = with_seed(1);

@@ -47,6 +47,33 @@ describe("an embedding", () => {
         expect(result.exactCost).toBe(result.exactLowerBound);
     });
 
+    test("gets_another_shape_without_a_new_search", async () => {
+        const session = await Session.create();
+        await expect(session.reshape("even")).rejects.toMatchObject({ code: "nothingToReshape" });
+        await session.loadLayout(problem.layout);
+        await session.loadTarget(problem.target);
+        await session.setLandmarks(displacedLandmarks);
+        const short = await session.solve();
+        const even = await session.reshape("even");
+        const total = (edges: { length: number }[]) =>
+            edges.reduce((sum, { length }) => sum + length, 0);
+        expect(even.status).toBe(short.status);
+        expect(even.exactCost).toBe(short.exactCost);
+        expect(total(short.edges)).toBeLessThan(total(even.edges));
+        for (const [id, edge] of even.edges.entries()) {
+            expect(edge.length).toBeCloseTo(edge.evenLength, 9);
+            expect(short.edges[id]!.evenLength).toBe(edge.evenLength);
+        }
+        const shares = short.edges.reduce((sum, { cost }) => sum + cost, 0);
+        expect(shares).toBeCloseTo(short.cost, 9);
+        expect(short.quality!.smallestAngle).toBeGreaterThan(0);
+        expect(short.quality!.smallestArea).toBeGreaterThan(0);
+        expect(await session.check({ refined: even.refined!, edges: even.edges })).toEqual([]);
+        const again = await session.reshape("short");
+        expect(again.refined).toEqual(short.refined);
+        await session.dispose();
+    });
+
     test.each(["greedy", "praun", "kraevoy", "schreiner"] as const)(
         "by_%s_is_complete_and_has_the_bound_of_the_root_state",
         async (algorithm) => {

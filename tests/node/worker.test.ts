@@ -56,6 +56,8 @@ test("can_solve_and_export_again_in_one_session", async () => {
     const files = await session.exportFiles();
     const again = await session.exportFiles();
     expect(again).toEqual(files);
+    const even = await session.reshape("even", { onProgress: () => undefined });
+    expect(even.refined).not.toEqual(first.refined);
     const second = await session.solve();
     expect(second.refined).toEqual(first.refined);
     expect(await session.check({ refined: first.refined!, edges: first.edges })).toEqual([]);

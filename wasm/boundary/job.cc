@@ -82,7 +82,8 @@ BOUNDARY_EXPORT(boundary_job_create)
 std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
                                   const Index* landmarks, std::size_t landmark_count,
                                   std::uint32_t algorithm, double gap, std::uint64_t seed,
-                                  double time_limit, std::uint64_t work_limit, double memory_limit)
+                                  double time_limit, std::uint64_t work_limit, double memory_limit,
+                                  std::uint32_t shape)
 {
     return guarded(0U, [&] {
         auto problem = make_problem(handles<LayoutObject>().get(layout).layout,
@@ -100,6 +101,7 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
         if (work_limit != UINT64_MAX) {
             options.work_limit = work_limit;
         }
+        options.shape = static_cast<PathShape>(shape);
         options.memory_limit = memory_limit < static_cast<double>(kAddressableBytes)
                                    ? static_cast<std::uint64_t>(std::max(0.0, memory_limit))
                                    : kAddressableBytes;
@@ -128,6 +130,17 @@ BOUNDARY_EXPORT(boundary_job_cancel) std::uint32_t boundary_job_cancel(std::uint
     });
 }
 
+/// Gives the paths of a job that has ended with an embedding another shape, to be stepped again; 0,
+/// with no error set, where there is no embedding.
+BOUNDARY_EXPORT(boundary_job_reshape)
+std::uint32_t boundary_job_reshape(std::uint32_t job, std::uint32_t shape)
+{
+    return guarded(0U, [&] {
+        return static_cast<std::uint32_t>(
+            job_object(job).job.reshape(static_cast<PathShape>(shape)));
+    });
+}
+
 /// Views the events from place `first` on as 7 doubles each: kind, phase, seconds, work, cost,
 /// lower bound, progress.
 BOUNDARY_EXPORT(boundary_job_events)
@@ -145,25 +158,35 @@ std::uint32_t boundary_job_events(std::uint32_t job, std::uint32_t first)
     });
 }
 
-/// Views the state as 19 doubles: status, bound scope, cost, lower bound, gap, seconds, CPU
+/// Views the state as 21 doubles: status, bound scope, cost, lower bound, gap, seconds, CPU
 /// seconds, work, searches, expansions, field nodes, insertions, remembered answers, states
-/// created, expanded, pruned and redundant, dead ends, ties.
+/// created, expanded, pruned and redundant, dead ends, ties, smallest angle and area.
 BOUNDARY_EXPORT(boundary_job_state) std::uint32_t boundary_job_state(std::uint32_t job)
 {
     return guarded(0U, [&] {
         const EmbedResult& result = job_object(job).job.result();
         const EmbedCounters& counters = result.counters;
-        set_owned_view(std::vector<double>{
-            static_cast<double>(result.status), static_cast<double>(result.bound_scope),
-            result.cost, result.lower_bound, result.gap, result.seconds, result.cpu_seconds,
-            static_cast<double>(counters.work), static_cast<double>(counters.searches),
-            static_cast<double>(counters.expansions), static_cast<double>(counters.field_nodes),
-            static_cast<double>(counters.insertions), static_cast<double>(counters.remembered),
-            static_cast<double>(counters.states_created),
-            static_cast<double>(counters.states_expanded),
-            static_cast<double>(counters.states_pruned),
-            static_cast<double>(counters.states_redundant), static_cast<double>(counters.dead_ends),
-            static_cast<double>(counters.ties)});
+        set_owned_view(std::vector<double>{static_cast<double>(result.status),
+                                           static_cast<double>(result.bound_scope),
+                                           result.cost,
+                                           result.lower_bound,
+                                           result.gap,
+                                           result.seconds,
+                                           result.cpu_seconds,
+                                           static_cast<double>(counters.work),
+                                           static_cast<double>(counters.searches),
+                                           static_cast<double>(counters.expansions),
+                                           static_cast<double>(counters.field_nodes),
+                                           static_cast<double>(counters.insertions),
+                                           static_cast<double>(counters.remembered),
+                                           static_cast<double>(counters.states_created),
+                                           static_cast<double>(counters.states_expanded),
+                                           static_cast<double>(counters.states_pruned),
+                                           static_cast<double>(counters.states_redundant),
+                                           static_cast<double>(counters.dead_ends),
+                                           static_cast<double>(counters.ties),
+                                           result.quality.smallest_angle,
+                                           result.quality.smallest_area});
         return 1U;
     });
 }
@@ -245,6 +268,25 @@ std::uint32_t boundary_job_weak_offsets(std::uint32_t job)
 {
     return guarded(0U, [&] {
         set_owned_view(offsets_of(weak_paths(job_object(job).job)));
+        return 1U;
+    });
+}
+
+/// Views the share of each layout edge in the cost; empty without an embedding.
+BOUNDARY_EXPORT(boundary_job_edge_costs) std::uint32_t boundary_job_edge_costs(std::uint32_t job)
+{
+    return guarded(0U, [&] {
+        set_view(job_object(job).job.result().edge_costs);
+        return 1U;
+    });
+}
+
+/// Views the lengths of the chains in the shape `even`; empty without an embedding.
+BOUNDARY_EXPORT(boundary_job_even_lengths)
+std::uint32_t boundary_job_even_lengths(std::uint32_t job)
+{
+    return guarded(0U, [&] {
+        set_view(job_object(job).job.result().even_lengths);
         return 1U;
     });
 }

@@ -18,6 +18,8 @@ import type {
     LayoutInfo,
     LoadOptions,
     MeshInput,
+    PathShape,
+    ReshapeOptions,
     SolveOptions,
     TargetInfo,
     TemplateLayout,
@@ -235,10 +237,13 @@ class WorkerSession implements EmbeddingSession {
     }
 
     solve(options: SolveOptions = {}): Promise<EmbedResult> {
-        const { signal, onProgress, ...plain } = options;
-        // Functions and signals cannot be sent.
-        const local = { ...(signal && { signal }), ...(onProgress && { onProgress }) };
+        const [plain, local] = sendable(options);
         return this.call("solve", [plain], local) as Promise<EmbedResult>;
+    }
+
+    reshape(shape: PathShape, options: ReshapeOptions = {}): Promise<EmbedResult> {
+        const [plain, local] = sendable(options);
+        return this.call("reshape", [shape, plain], local) as Promise<EmbedResult>;
     }
 
     exportFiles(): Promise<ExportedFiles> {
@@ -252,6 +257,12 @@ class WorkerSession implements EmbeddingSession {
     dispose(): Promise<void> {
         return this.call("dispose", []) as Promise<void>;
     }
+}
+
+/** Options without what cannot be sent, functions and signals, and these. */
+function sendable(options: SolveOptions) {
+    const { signal, onProgress, ...plain } = options;
+    return [plain, { ...(signal && { signal }), ...(onProgress && { onProgress }) }] as const;
 }
 
 async function openPort(events: PortEvents): Promise<Port> {

@@ -28,6 +28,11 @@ export const javaScriptErrors = [
         advice: "solve first",
     },
     {
+        code: "nothingToReshape",
+        meaning: "there is no embedding whose paths could get another shape",
+        advice: "solve first",
+    },
+    {
         code: "disposed",
         meaning: "the session was disposed of",
         advice: "create another session",

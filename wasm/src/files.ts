@@ -29,6 +29,7 @@ export interface EmbeddingDocument {
     seconds: number;
     cpuSeconds: number;
     algorithm: string;
+    shape: string;
     seed: number;
     limits: {
         gap: number;
@@ -46,9 +47,13 @@ export interface EmbeddingDocument {
         layoutEdge: [number, number];
         /** Vertices of refined.obj, 0-based. */
         chain: number[];
+        cost: number;
         length: number;
+        evenLength: number;
         weakPath: WeakPoint[];
     }[];
+    /** The smallest angle of refined.obj's triangles, in degrees, and their smallest area. */
+    quality: { smallestAngle: number; smallestArea: number } | null;
     /** Per triangle of refined.obj: the layout face, null outside all of them. */
     patches: (number | null)[];
     insertionOrder: number[];
@@ -108,6 +113,7 @@ export function embeddingDocument(exportable: Exportable): EmbeddingDocument {
         seconds: result.seconds,
         cpuSeconds: result.cpuSeconds,
         algorithm: options.algorithm,
+        shape: options.shape,
         seed: options.seed,
         limits: {
             gap: options.gap,
@@ -119,6 +125,7 @@ export function embeddingDocument(exportable: Exportable): EmbeddingDocument {
         notes: exportable.notes,
         landmarks: Array.from(result.landmarks),
         edges: result.edges.map((edge) => ({ ...edge, chain: Array.from(edge.chain) })),
+        quality: result.quality,
         patches: Array.from(result.refined?.patches ?? [], (patch) => (patch < 0 ? null : patch)),
         insertionOrder: Array.from(result.insertionOrder),
         counters: result.counters,

@@ -11,14 +11,17 @@ import type {
     EmbedPhase,
     EmbedResult,
     EmbedStatus,
+    PathShape,
     Polylines,
     RefinedMesh,
+    ReshapeOptions,
     SolveOptions,
     WeakPoint,
 } from "./types.js";
 
 // In the order of the core's enumerations (core/apps/embed_job.hh).
 const algorithms: Algorithm[] = ["greedy", "praun", "kraevoy", "schreiner", "branch-and-bound"];
+const shapes: PathShape[] = ["even", "short"];
 const statuses: (EmbedStatus | "running" | "failed")[] = [
     "running",
     "optimal",
@@ -42,11 +45,14 @@ export const algorithmNames: readonly string[] = algorithms;
 const none = 0xffff_ffff;
 const maximalWork = 0xffff_ffff_ffff_ffffn;
 const defaultSlice = 15;
+/** Numbers per event. */
+const eventSize = 7;
 
 /** What the core wants to know, checked and with all defaults filled in. */
 export interface JobOptions {
     algorithm: Algorithm;
     gap: number;
+    shape: PathShape;
     timeLimit: number;
     workLimit: number;
     memoryLimit: number;
@@ -58,6 +64,7 @@ export function jobOptions(options: SolveOptions): JobOptions {
     const checked: JobOptions = {
         algorithm: options.algorithm ?? "branch-and-bound",
         gap: options.gap ?? 0.01,
+        shape: options.shape ?? "short",
         timeLimit: options.timeLimit ?? Infinity,
         workLimit: options.workLimit ?? Infinity,
         memoryLimit: options.memoryLimit ?? Infinity,
@@ -70,6 +77,9 @@ export function jobOptions(options: SolveOptions): JobOptions {
         );
     if (!algorithms.includes(checked.algorithm)) {
         throw refuse("algorithm", checked.algorithm, algorithms.join(" or "));
+    }
+    if (!shapes.includes(checked.shape)) {
+        throw refuse("shape", checked.shape, shapes.join(" or "));
     }
     if (!(checked.gap >= 0 && checked.gap <= 1)) {
         throw refuse("gap", checked.gap, "a number from 0 to 1");
@@ -106,8 +116,14 @@ export function createJob(
             options.timeLimit,
             workAmount(options.workLimit),
             options.memoryLimit,
+            shapes.indexOf(options.shape),
         ),
     );
+}
+
+/** Has a job that has ended start again with another shape; false where it has no embedding. */
+export function reshapeJob(core: Core, job: Handle, shape: PathShape): boolean {
+    return core.test("boundary_job_reshape", job, shapes.indexOf(shape));
 }
 
 /**
@@ -117,7 +133,7 @@ export function createJob(
 export async function runJob(
     core: Core,
     job: Handle,
-    options: SolveOptions,
+    options: ReshapeOptions,
     isAlive: () => boolean,
 ): Promise<void> {
     const milliseconds = options.slice?.milliseconds ?? defaultSlice;
@@ -125,7 +141,8 @@ export async function runJob(
     if (!(milliseconds > 0) || work === 0n) {
         throw new LayoutError("invalidOption", "a slice is empty; give it some time and work.");
     }
-    let seen = 0;
+    core.call("boundary_job_events", job, 0);
+    let seen = core.viewedDoubles().length / eventSize;
     for (let running = true; running;) {
         if (options.signal?.aborted === true) {
             core.call("boundary_job_cancel", job);
@@ -170,6 +187,10 @@ export function readResult(
         exactLowerBound: exactLowerBound ?? 0n,
         edges: refined === null ? [] : readEdges(core, job, edges, refined),
         refined,
+        quality:
+            refined === null
+                ? null
+                : { smallestAngle: counts[12] ?? 0, smallestArea: counts[13] ?? 0 },
         landmarks: landmarks.slice(),
         insertionOrder,
         events: readEvents(core, job, 0),
@@ -223,10 +244,10 @@ function readEvents(core: Core, job: Handle, first: number): EmbedEvent[] {
     core.call("boundary_job_events", job, first);
     const numbers = core.viewedDoubles();
     const events: EmbedEvent[] = [];
-    for (let i = 0; i < numbers.length; i += 7) {
+    for (let i = 0; i < numbers.length; i += eventSize) {
         const [kind, phase, seconds, work, cost, lowerBound, progress] = numbers.subarray(
             i,
-            i + 7,
+            i + eventSize,
         ) as unknown as [number, number, number, number, number, number, number];
         events.push({
             kind: eventKinds[kind] ?? "progress",
@@ -289,6 +310,12 @@ function readEdges(
     const chainVertices = ids("boundary_job_chain_vertices");
     const weakOffsets = ids("boundary_job_weak_offsets");
     const weakPoints = ids("boundary_job_weak_points", 3);
+    const numbers = (name: string) => {
+        core.call(name, job);
+        return core.viewedDoubles();
+    };
+    const costs = numbers("boundary_job_edge_costs");
+    const evenLengths = numbers("boundary_job_even_lengths");
     const edges: EmbeddedEdge[] = [];
     for (let id = 0; id < layoutEdges.length / 2; ++id) {
         const chain = chainVertices.slice(chainOffsets[id], chainOffsets[id + 1]);
@@ -296,7 +323,9 @@ function readEdges(
             id,
             layoutEdge: [layoutEdges[2 * id] ?? 0, layoutEdges[2 * id + 1] ?? 0],
             chain,
+            cost: costs[id] ?? NaN,
             length: chainLength(refined.positions, chain),
+            evenLength: evenLengths[id] ?? NaN,
             weakPath: weakPath(weakPoints, weakOffsets[id] ?? 0, weakOffsets[id + 1] ?? 0),
         });
     }

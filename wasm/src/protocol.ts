@@ -14,7 +14,7 @@ export type Request =
     /** Makes a session, known by the request's id from then on. */
     | { kind: "create"; id: number }
     | { kind: "call"; id: number; session: number; method: SessionMethod; args: unknown[] }
-    /** Aborts a solve() under way. */
+    /** Aborts a solve() or reshape() under way. */
     | { kind: "abort"; id: number };
 
 export type Reply =

@@ -10,7 +10,7 @@ import {
     type Exportable,
     type InputRecord,
 } from "./files.js";
-import { createJob, jobOptions, readResult, runJob, type JobOptions } from "./job.js";
+import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
 import type {
@@ -24,6 +24,8 @@ import type {
     LayoutInfo,
     LoadOptions,
     MeshInput,
+    PathShape,
+    ReshapeOptions,
     SolveOptions,
     TargetInfo,
     TemplateLayout,
@@ -183,6 +185,29 @@ export class Session implements EmbeddingSession {
             return result;
         } catch (reason) {
             core.destroy(job);
+            throw reason;
+        }
+    }
+
+    async reshape(shape: PathShape, options: ReshapeOptions = {}): Promise<EmbedResult> {
+        const { core, solved } = this;
+        this.assertAlive();
+        // The shape is checked as solve() checks it.
+        const checked = jobOptions({ ...solved?.options, shape });
+        if (solved === null || !reshapeJob(core, solved.job, shape)) {
+            throw javaScriptError("nothingToReshape", "no embedding was found in this session");
+        }
+        // Until it is done there is nothing to export.
+        this.solved = null;
+        solved.options = checked;
+        try {
+            await runJob(core, solved.job, options, () => !this.disposed);
+            const result = readResult(core, solved.job, solved.layoutEdges, solved.landmarks);
+            core.destroy((this.solved as Solved | null)?.job ?? null);
+            this.solved = solved;
+            return result;
+        } catch (reason) {
+            core.destroy(solved.job);
             throw reason;
         }
     }

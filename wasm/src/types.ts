@@ -132,6 +132,12 @@ export interface TemplateLayout {
  */
 export type Algorithm = "greedy" | "praun" | "kraevoy" | "schreiner" | "branch-and-bound";
 
+/**
+ * How paths run within their homotopy classes. `even`: crossing the target's edges at even distances,
+ * which looks jagged; `short`: as straight as neighbouring paths allow.
+ */
+export type PathShape = "even" | "short";
+
 /** Why a job ended. */
 export type EmbedStatus =
     /** The gap is 0 in the stated scope. */
@@ -159,6 +165,8 @@ export interface SolveOptions {
     algorithm?: Algorithm;
     /** The gap to be reached, (cost - lowerBound) / cost; 0 asks for the optimum. Default 0.01. */
     gap?: number;
+    /** Default: short. */
+    shape?: PathShape;
     /** Seconds for the search; results then depend on the machine. Default: no limit. */
     timeLimit?: number;
     /**
@@ -184,6 +192,9 @@ export interface SolveOptions {
      */
     slice?: { milliseconds?: number; work?: number };
 }
+
+/** How reshape() goes; as in SolveOptions. An aborted `signal` leaves the paths as far as they are. */
+export type ReshapeOptions = Pick<SolveOptions, "signal" | "onProgress" | "slice">;
 
 /** Paths as polylines, ready to draw. */
 export interface Polylines {
@@ -265,8 +276,12 @@ export interface EmbeddedEdge {
     layoutEdge: [number, number];
     /** Vertex ids of the refined mesh, from landmark to landmark. */
     chain: Uint32Array;
+    /** Its share of the embedding's cost, in the path-graph metric. */
+    cost: number;
     /** The chain's length on the surface. */
     length: number;
+    /** What `length` is in the shape `even`. */
+    evenLength: number;
     /** The path in the path graph, whose length counts in `cost`. */
     weakPath: WeakPoint[];
 }
@@ -306,6 +321,8 @@ export interface EmbedResult {
     edges: EmbeddedEdge[];
     /** Null without an embedding. */
     refined: RefinedMesh | null;
+    /** The smallest angle of the refined triangles, in degrees, and their smallest area. */
+    quality: { smallestAngle: number; smallestArea: number } | null;
     landmarks: Uint32Array;
     /** Layout edges in the order in which they were embedded. */
     insertionOrder: Uint32Array;
@@ -362,6 +379,11 @@ export interface EmbeddingSession {
     templateLayout(landmarks: LandmarkInput, options?: TemplateOptions): Promise<TemplateLayout>;
     /** Embeds the layout; without landmarks, those by proximity are set first. */
     solve(options?: SolveOptions): Promise<EmbedResult>;
+    /**
+     * Gives the paths of the last embedding that solve() returned another shape, without a new
+     * search. Rejected with nothingToReshape where there is none.
+     */
+    reshape(shape: PathShape, options?: ReshapeOptions): Promise<EmbedResult>;
     /** The files of the last embedding that solve() returned. */
     exportFiles(): Promise<ExportedFiles>;
     /** What is wrong with a claimed embedding; empty if it is valid. */

@@ -5,7 +5,7 @@ import { asLayoutError, javaScriptError } from "./errors.js";
 import { init } from "./loader.js";
 import { buffersIn, type Reply, type Request } from "./protocol.js";
 import { Session } from "./session.js";
-import type { SolveOptions } from "./types.js";
+import type { EmbedProgress, PathShape, ReshapeOptions, SolveOptions } from "./types.js";
 
 type Send = (reply: Reply, transfer: ArrayBuffer[]) => void;
 
@@ -45,7 +45,12 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
                 throw javaScriptError("disposed", "the session cannot be used any more");
             }
             if (request.method === "solve") {
-                return solve(session, request.id, request.args[0] as SolveOptions, send);
+                const options = request.args[0] as SolveOptions;
+                return session.solve({ ...options, ...whileRunning(request.id, send) });
+            }
+            if (request.method === "reshape") {
+                const [shape, options] = request.args as [PathShape, ReshapeOptions];
+                return session.reshape(shape, { ...options, ...whileRunning(request.id, send) });
             }
             if (request.method === "dispose") {
                 sessions.delete(request.session);
@@ -59,16 +64,16 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
     }
 }
 
-function solve(session: Session, id: number, options: SolveOptions, send: Send) {
+/** The options of a job that stand for what cannot be sent. */
+function whileRunning(id: number, send: Send) {
     const abort = new AbortController();
     aborts.set(id, abort);
-    return session.solve({
-        ...options,
+    return {
         signal: abort.signal,
-        onProgress: (progress) => {
+        onProgress: (progress: EmbedProgress) => {
             send({ kind: "progress", id, progress }, buffersIn(progress));
         },
-    });
+    };
 }
 
 /** What this file needs of a worker's global scope. */

@@ -2,7 +2,7 @@
 import { parseArgs, type ParseArgsConfig } from "node:util";
 import { javaScriptError, LayoutError } from "../errors.js";
 import { jobOptions } from "../job.js";
-import type { Algorithm, SolveOptions } from "../types.js";
+import type { Algorithm, PathShape, SolveOptions } from "../types.js";
 
 export interface EmbedCommand {
     name: "embed";
@@ -54,6 +54,7 @@ const embedOptions = {
     "work-limit": { type: "string" },
     "memory-limit": { type: "string" },
     seed: { type: "string" },
+    shape: { type: "string" },
     output: { type: "string" },
     quiet: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
@@ -110,6 +111,7 @@ function parseEmbed(args: string[]): Command {
         ...given("timeLimit", number("--time-limit", values["time-limit"])),
         ...given("workLimit", number("--work-limit", values["work-limit"])),
         ...given("memoryLimit", number("--memory-limit", values["memory-limit"], 1e6)),
+        ...given("shape", values.shape as PathShape | undefined),
         ...given("seed", number("--seed", values.seed)),
     };
     // Wrong values are found before any file is read.

@@ -127,7 +127,8 @@ function summaryText(document: EmbeddingDocument, files: string[]): string {
             `${document.seconds.toFixed(2)} s`,
         `cost ${number(document.cost)}, at least ${number(document.lowerBound)} ${scope}, ` +
             `gap ${gap} (all in the path-graph metric)`,
-        `length of the chains on the surface ${number(length)}`,
+        `length of the chains on the surface ${number(length)} (${document.shape}), ` +
+            `smallest angle ${number(document.quality?.smallestAngle ?? null)} degrees`,
     ];
     if (files.length > 0) {
         lines.push(`written: ${files.join(", ")}`);

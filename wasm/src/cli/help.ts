@@ -22,6 +22,8 @@ Options of embed
                        reproducible
   --memory-limit MB    refuse what would need more memory
   --seed N             seed of the tie-breaking perturbation (default 1)
+  --shape NAME         short (default): paths as straight as their neighbours allow; even: crossing
+                       the target's edges at even distances
   --quiet              print nothing but errors
 
 Options of layout

@@ -28,9 +28,7 @@ export class ProgressLine {
         const quality = found
             ? `, cost ${cost.toPrecision(6)}, gap ${(100 * (1 - lowerBound / cost)).toFixed(2)} %`
             : "";
-        process.stderr.write(
-            `\r\x1b[K${names[phase]}${share}${quality}, ${seconds.toFixed(1)} s`,
-        );
+        process.stderr.write(`\r\x1b[K${names[phase]}${share}${quality}, ${seconds.toFixed(1)} s`);
     }
 
     clear(): void {

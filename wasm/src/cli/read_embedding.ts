@@ -12,8 +12,13 @@ import { Shape } from "./shape.js";
 /** What is checked of embedding.json. */
 export type CheckedDocument = Pick<
     EmbeddingDocument,
-    "cost" | "lowerBound" | "gap" | "status" | "landmarks" | "edges"
->;
+    "cost" | "lowerBound" | "gap" | "status" | "landmarks"
+> & {
+    edges: Pick<
+        EmbeddingDocument["edges"][number],
+        "id" | "layoutEdge" | "chain" | "length" | "weakPath"
+    >[];
+};
 
 export interface WrittenEmbedding {
     document: CheckedDocument;
