@@ -412,6 +412,35 @@ TEST(EmbedJob, paths_can_get_another_shape_without_a_new_search)
     }
 }
 
+TEST(EmbedJob, a_shape_can_be_cancelled_and_keeps_paths_as_far_as_they_are)
+{
+    int cancelled = 0;
+    for (const Input& input : all_inputs()) {
+        SCOPED_TRACE(input.name);
+        EmbedJob job(input.problem(), with_seed(1));
+        finish(job);
+        if (!job.result().refined) {
+            continue;
+        }
+        const EmbedResult whole = job.result();
+        ASSERT_TRUE(job.reshape(PathShape::shortened));
+        for (int steps = 0; steps < 5; ++steps) {
+            ASSERT_TRUE(job.step({0, kUnlimited}));
+        }
+        job.cancel();
+        finish(job);
+        ASSERT_TRUE(job.result().refined.has_value());
+        test::expect_valid(job.problem(), *job.graph(), job.result().weak, *job.result().refined);
+        EXPECT_EQ(job.result().exact_cost, whole.exact_cost);
+        cancelled += job.result().status == EmbedStatus::cancelled ? 1 : 0;
+        // Nothing of it stays.
+        ASSERT_TRUE(job.reshape(PathShape::shortened));
+        finish(job);
+        expect_same_results(job.result(), whole);
+    }
+    EXPECT_GT(cancelled, 1);
+}
+
 TEST(EmbedJob, no_time_at_all_ends_at_the_time_limit)
 {
     EmbedOptions options = with_seed(1);
