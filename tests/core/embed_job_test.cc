@@ -384,7 +384,7 @@ TEST(EmbedJob, paths_can_get_another_shape_without_a_new_search)
 {
     for (const Input& input : all_inputs()) {
         SCOPED_TRACE(input.name);
-        EmbedOptions options = with_seed(1);
+        EmbedOptions options = with_seed(1, Algorithm::greedy);
         EmbedJob job(input.problem(), options);
         EXPECT_FALSE(job.reshape(PathShape::even));
         finish(job);
@@ -417,7 +417,7 @@ TEST(EmbedJob, a_shape_can_be_cancelled_and_keeps_paths_as_far_as_they_are)
     int cancelled = 0;
     for (const Input& input : all_inputs()) {
         SCOPED_TRACE(input.name);
-        EmbedJob job(input.problem(), with_seed(1));
+        EmbedJob job(input.problem(), with_seed(1, Algorithm::greedy));
         finish(job);
         if (!job.result().refined) {
             continue;
