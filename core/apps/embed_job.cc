@@ -92,6 +92,9 @@ struct EmbedJob::Implementation {
     EmbedStatus search_status = EmbedStatus::running;
     std::unique_ptr<Straightening> straightening;  // while paths get their shape
     double shown_progress = 0;
+    Length root_bound = 0;
+    std::unique_ptr<LandmarkDoubts> doubts;  // while alternatives are compared
+    bool compared = false;
 
     double seconds() const
     {
@@ -116,6 +119,41 @@ struct EmbedJob::Implementation {
         enter(EmbedPhase::done);
     }
 
+    /// Ends the job after a look at what else the input could have meant.
+    void end_after_comparison(EmbedStatus status)
+    {
+        final_status = status;
+        const bool stopped = status == EmbedStatus::cancelled || status == EmbedStatus::time_limit;
+        // What a heuristic finds may be long for no other reason than the heuristic.
+        const bool comparable =
+            options.look_for_doubts && options.algorithm == Algorithm::branch_and_bound;
+        if (stopped || compared || !comparable) {
+            end(status);
+            return;
+        }
+        compared = true;
+        solver.reset();
+        doubts = std::make_unique<LandmarkDoubts>(
+            problem, *graph, field_bytes,
+            LandmarkDoubts::Found{result.exact_cost, root_bound,
+                                  std::min(work, first_embedding_work)});
+    }
+
+    /// Part of the check phase.
+    void compare(std::uint64_t max_work)
+    {
+        WorkBudget budget(max_work);
+        const bool over = cancel_requested || seconds() - search_start > options.time_limit;
+        const bool more = !over && doubts->run(budget);
+        work += budget.spent();
+        if (more) {
+            return;
+        }
+        result.doubts = doubts->doubts();
+        doubts.reset();
+        end(final_status);
+    }
+
     void fail(EmbedStatus status, Error reason)
     {
         error = std::move(reason);
@@ -126,7 +164,7 @@ struct EmbedJob::Implementation {
     void conclude(EmbedStatus reason)
     {
         if (result.exact_cost == kInfiniteLength) {
-            end(reason);
+            end_after_comparison(reason);
             return;
         }
         final_status = search_status = reason;
@@ -225,6 +263,8 @@ struct EmbedJob::Implementation {
                 }
                 break;
             case Solver::Outcome::bounded:
+                // The first bound of all is that of the root: the sum of unconstrained paths.
+                root_bound = root_bound == 0 ? solver->lower_bound() : root_bound;
                 set_lower_bound(solver->lower_bound(), solver->bound_scope());
                 emit(EventKind::bound, solver->progress());
                 break;
@@ -254,9 +294,10 @@ struct EmbedJob::Implementation {
                      : gap <= options.gap       ? EmbedStatus::gap_reached
                                                 : EmbedStatus::feasible);
         } else {
-            end(bound == kInfiniteLength && solver->bound_scope() == BoundScope::embeddings
-                    ? EmbedStatus::infeasible
-                    : EmbedStatus::none_found);
+            end_after_comparison(bound == kInfiniteLength &&
+                                         solver->bound_scope() == BoundScope::embeddings
+                                     ? EmbedStatus::infeasible
+                                     : EmbedStatus::none_found);
         }
     }
 
@@ -277,6 +318,7 @@ struct EmbedJob::Implementation {
         result.gap = 1;
         result.weak = {};
         first_embedding_work = UINT64_MAX;
+        root_bound = 0;
         earlier_attempts = result.counters;
         ++earlier_attempts.ties;
         result.counters = earlier_attempts;
@@ -387,7 +429,7 @@ struct EmbedJob::Implementation {
                                                               report.violations[0].message + ")"));
             return;
         }
-        end(final_status);
+        end_after_comparison(final_status);
     }
 
     void step(const StepBudget& budget)
@@ -403,7 +445,9 @@ struct EmbedJob::Implementation {
                     prepare();
                     break;
                 case EmbedPhase::search:
-                    if (cancel_requested) {
+                    if (doubts) {
+                        compare(std::min(kWorkPerSlice, work_end - work));
+                    } else if (cancel_requested) {
                         conclude(EmbedStatus::cancelled);
                     } else if (seconds() - search_start > options.time_limit) {
                         conclude(EmbedStatus::time_limit);
@@ -415,7 +459,11 @@ struct EmbedJob::Implementation {
                     realise_embedding();
                     break;
                 case EmbedPhase::check:
-                    check();
+                    if (doubts) {
+                        compare(std::min(kWorkPerSlice, work_end - work));
+                    } else {
+                        check();
+                    }
                     break;
                 case EmbedPhase::done:
                     return;

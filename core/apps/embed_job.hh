@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/landmark_doubts.hh"
 #include "base/error.hh"
 #include "embedding/path_shape.hh"
 #include "embedding/refined_mesh.hh"
@@ -62,6 +63,9 @@ struct EmbedOptions {
     PathShape shape = PathShape::shortened;
     /// Bytes the job may take, estimated before it starts.
     std::uint64_t memory_limit = std::numeric_limits<std::uint64_t>::max();
+    /// Whether to look for changes of the input that would make the embedding far shorter
+    /// (apps/landmark_doubts.hh).
+    bool look_for_doubts = true;
 };
 
 /// A few seconds on the machines of today.
@@ -137,6 +141,9 @@ struct EmbedResult {
     /// Layout edges in the order in which they were embedded.
     std::vector<Index> insertion_order;
     EmbedCounters counters;
+    /// Changes of the input that make the embedding far shorter, or possible. Not looked for after
+    /// a heuristic, a cancelled job, or a time limit; work limits do not count this work.
+    std::vector<LandmarkDoubt> doubts;
     double seconds = 0;
     double cpu_seconds = 0;
 };

@@ -14,6 +14,7 @@
 #include "mesh/mesh_writer.hh"
 #include "mesh/triangle_mesh.hh"
 #include "mesh/validation.hh"
+#include "shapes/collection_check.hh"
 #include "shapes/shape.hh"
 #include "shapes/statistics.hh"
 
@@ -30,12 +31,19 @@ constexpr const char* kUsage =
     "    landmarks, one per line), and DIR/index.json about all that was written\n"
     "    --digits N  rounds coordinates to N decimals (smaller files)\n"
     "generate_shapes --statistics [--class NAME] [--vertices N] [FILE...]\n"
-    "    prints edge lengths, angles and valences of members, and of mesh files beside them\n";
+    "    prints edge lengths, angles and valences of members, and of mesh files beside them\n"
+    "generate_shapes --check [--class NAME] [--others N] [--doubts] [--vertices N] [--seed N]\n"
+    "    embeds the template layout of every member in the next N members of its class (all), by\n"
+    "    branch and bound and by the heuristics; with --doubts, also the template's mirror image\n"
+    "    and with two landmarks exchanged, and counts what is said of these. 2000 vertices each\n"
+    "    unless told otherwise. Takes an hour for everything\n";
 
 struct Arguments {
     bool list = false;
     bool all = false;
     bool statistics = false;
+    bool check = false;
+    CollectionCheckOptions check_options;
     std::string class_name;
     std::optional<Index> member;
     std::string output;
@@ -80,6 +88,10 @@ bool parse(int count, char** words, Arguments& arguments)
             arguments.all = true;
         } else if (word == "--statistics") {
             arguments.statistics = true;
+        } else if (word == "--check") {
+            arguments.check = true;
+        } else if (word == "--doubts") {
+            arguments.check_options.doubts = true;
         } else if (word == "--class") {
             if (!text(arguments.class_name)) {
                 return false;
@@ -89,7 +101,7 @@ bool parse(int count, char** words, Arguments& arguments)
                 return false;
             }
         } else if (word == "--member" || word == "--vertices" || word == "--digits" ||
-                   word == "--seed") {
+                   word == "--seed" || word == "--others") {
             if (!number(value)) {
                 return false;
             }
@@ -97,6 +109,8 @@ bool parse(int count, char** words, Arguments& arguments)
                 arguments.member = static_cast<Index>(value);
             } else if (word == "--vertices") {
                 arguments.options.vertices = static_cast<Index>(value);
+            } else if (word == "--others") {
+                arguments.check_options.others = static_cast<Index>(value);
             } else if (word == "--digits") {
                 arguments.digits = static_cast<int>(value);
             } else {
@@ -280,6 +294,14 @@ int run(int count, char** words)
     }
     if (arguments.statistics) {
         return print_statistics(arguments);
+    }
+    if (arguments.check) {
+        CollectionCheckOptions& options = arguments.check_options;
+        options.seed = arguments.options.seed;
+        if (arguments.options.vertices != 0) {
+            options.vertices = arguments.options.vertices;
+        }
+        return check_collection(chosen(arguments), options) ? 0 : 1;
     }
     if (arguments.output.empty() || arguments.all != arguments.class_name.empty() ||
         !arguments.files.empty()) {

@@ -58,6 +58,8 @@ EmbedOptions with_seed(std::uint64_t seed, Algorithm algorithm = Algorithm::bran
     options.algorithm = algorithm;
     options.seed = seed;
     options.work_limit = 300000;
+    // Landmarks at random are doubtful; what is made of that has tests of its own.
+    options.look_for_doubts = false;
     return options;
 }
 

@@ -201,6 +201,32 @@ BOUNDARY_EXPORT(boundary_job_exact) std::uint32_t boundary_job_exact(std::uint32
     });
 }
 
+/// Views the doubts about the input as 4 doubles each: kind, two layout vertices (kNone where there
+/// are none), cost.
+BOUNDARY_EXPORT(boundary_job_doubts) std::uint32_t boundary_job_doubts(std::uint32_t job)
+{
+    return guarded(0U, [&] {
+        std::vector<double> numbers;
+        for (const LandmarkDoubt& doubt : job_object(job).job.result().doubts) {
+            numbers.insert(numbers.end(),
+                           {static_cast<double>(doubt.kind), static_cast<double>(doubt.a),
+                            static_cast<double>(doubt.b), doubt.cost});
+        }
+        set_owned_view(numbers);
+        return 1U;
+    });
+}
+
+/// Views the sentence about a doubt.
+BOUNDARY_EXPORT(boundary_job_doubt_message)
+std::uint32_t boundary_job_doubt_message(std::uint32_t job, std::size_t place)
+{
+    return guarded(0U, [&] {
+        set_view(std::string_view(job_object(job).job.result().doubts.at(place).message));
+        return 1U;
+    });
+}
+
 /// Makes the job's own error the last one; only for a job that failed or ran out of memory.
 BOUNDARY_EXPORT(boundary_job_error) std::uint32_t boundary_job_error(std::uint32_t job)
 {

@@ -1,7 +1,14 @@
 // The two JSON files of an embedding: what is in them, writing them. README.md describes them for
 // users; src/cli/read_embedding.ts reads them back.
 import type { JobOptions } from "./job.js";
-import type { EmbedCounters, EmbedResult, ExportedFiles, RefinedMesh, WeakPoint } from "./types.js";
+import type {
+    EmbedCounters,
+    EmbedResult,
+    ExportedFiles,
+    LandmarkDoubt,
+    RefinedMesh,
+    WeakPoint,
+} from "./types.js";
 
 /** The version of the file formats; it changes when old readers could misread them. */
 export const fileVersion = 1;
@@ -40,6 +47,8 @@ export interface EmbeddingDocument {
     inputs: InputRecord[];
     /** What was repaired or deserves attention. */
     notes: string[];
+    /** What the input may have meant instead. */
+    doubts: LandmarkDoubt[];
     /** Target vertex per layout vertex. */
     landmarks: number[];
     edges: {
@@ -123,6 +132,7 @@ export function embeddingDocument(exportable: Exportable): EmbeddingDocument {
         },
         inputs: exportable.inputs,
         notes: exportable.notes,
+        doubts: result.doubts,
         landmarks: Array.from(result.landmarks),
         edges: result.edges.map((edge) => ({ ...edge, chain: Array.from(edge.chain) })),
         quality: result.quality,

@@ -11,6 +11,7 @@ import type {
     EmbedPhase,
     EmbedResult,
     EmbedStatus,
+    LandmarkDoubt,
     PathShape,
     Polylines,
     RefinedMesh,
@@ -37,6 +38,7 @@ const statuses: (EmbedStatus | "running" | "failed")[] = [
 ];
 const scopes: BoundScope[] = ["embeddings", "insertionSequences"];
 const phases: EmbedPhase[] = ["prepare", "search", "realise", "check", "done"];
+const doubtKinds: LandmarkDoubt["kind"][] = ["mirrored", "exchanged"];
 const eventKinds: EmbedEventKind[] = ["phase", "incumbent", "bound", "progress"];
 
 /** The names of the algorithms there are. */
@@ -208,10 +210,28 @@ export function readResult(
             deadEnds: counts[10] ?? 0,
             ties: counts[11] ?? 0,
         },
+        doubts: readDoubts(core, job),
         seconds: seconds ?? 0,
         cpuSeconds: cpuSeconds ?? 0,
         message: name === "memoryLimit" ? jobError(core, job).message : null,
     };
+}
+
+function readDoubts(core: Core, job: Handle): LandmarkDoubt[] {
+    core.call("boundary_job_doubts", job);
+    const numbers = core.viewedDoubles();
+    const doubts: LandmarkDoubt[] = [];
+    for (let i = 0; i < numbers.length; i += 4) {
+        const [kind, a, b, cost] = numbers.subarray(i, i + 4) as unknown as number[];
+        core.call("boundary_job_doubt_message", job, i / 4);
+        doubts.push({
+            kind: doubtKinds[kind ?? 0] ?? "mirrored",
+            vertices: a === undefined || b === undefined || a === none ? null : [a, b],
+            cost: cost ?? Infinity,
+            message: core.viewedText(),
+        });
+    }
+    return doubts;
 }
 
 /** What stopped the job. */

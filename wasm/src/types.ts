@@ -305,6 +305,24 @@ export interface RefinedMesh {
     vertexBarycentrics: Float64Array;
 }
 
+/**
+ * A small change of the input that makes the embedding far shorter (three quarters of the cost or
+ * less), or possible at all: most likely the input is not what was meant.
+ */
+export interface LandmarkDoubt {
+    /**
+     * `mirrored`: the mirror image of the layout fits, so layout or target are inside out.
+     * `exchanged`: two layout vertices fit with their landmarks exchanged.
+     */
+    kind: "mirrored" | "exchanged";
+    /** The two layout vertices; null for `mirrored`. */
+    vertices: [number, number] | null;
+    /** The cost of an embedding after the change. */
+    cost: number;
+    /** One sentence that says so. */
+    message: string;
+}
+
 export interface EmbedResult {
     status: EmbedStatus;
     /** In the path-graph metric (see the README); Infinity without an embedding. */
@@ -328,6 +346,11 @@ export interface EmbedResult {
     insertionOrder: Uint32Array;
     events: EmbedEvent[];
     counters: EmbedCounters;
+    /**
+     * What the input may have meant instead, at most one doubt. Not looked for after a heuristic,
+     * an aborted solve, or the time limit.
+     */
+    doubts: LandmarkDoubt[];
     seconds: number;
     cpuSeconds: number;
     /** One sentence where the status does not say it all: what did not fit into memory. */

@@ -37,14 +37,17 @@ async function load(session: Session, command: EmbedCommand): Promise<void> {
     const landmarks =
         command.landmarks === null ? null : await readInput("the landmark file", command.landmarks);
     const options = { repair: command.repair };
-    const notes = [
+    printNotes(command, [
         ...(await session.loadLayout(layout, options)).notes,
         ...(await session.loadTarget(target, options)).notes,
         ...(landmarks === null
             ? await session.landmarksByProximity()
             : await session.setLandmarks(landmarks)
         ).notes,
-    ];
+    ]);
+}
+
+function printNotes(command: EmbedCommand, notes: string[]): void {
     if (!command.quiet && !command.json) {
         for (const note of notes) {
             process.stderr.write(`note: ${note}\n`);
@@ -79,6 +82,10 @@ async function finish(
     interrupted: boolean,
 ): Promise<Outcome> {
     const document = session.embeddingDocument();
+    printNotes(
+        command,
+        result.doubts.map(({ message }) => message),
+    );
     if (result.refined === null) {
         return {
             exitCode: interrupted ? exitCodes.interrupted : exitCodeWithout(result, command),
