@@ -42,6 +42,12 @@ GreedyRule rule_of(Algorithm algorithm)
     }
 }
 
+bool is_heuristic(Algorithm algorithm)
+{
+    return algorithm == Algorithm::greedy || algorithm == Algorithm::praun ||
+           algorithm == Algorithm::kraevoy || algorithm == Algorithm::schreiner;
+}
+
 std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathGraph& graph,
                                     std::uint64_t field_bytes, const EmbedOptions& options)
 {
@@ -125,8 +131,7 @@ struct EmbedJob::Implementation {
         final_status = status;
         const bool stopped = status == EmbedStatus::cancelled || status == EmbedStatus::time_limit;
         // What a heuristic finds may be long for no other reason than the heuristic.
-        const bool comparable =
-            options.look_for_doubts && options.algorithm == Algorithm::branch_and_bound;
+        const bool comparable = options.look_for_doubts && !is_heuristic(options.algorithm);
         if (stopped || compared || !comparable) {
             end(status);
             return;

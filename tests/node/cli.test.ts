@@ -125,6 +125,25 @@ describe("embed", () => {
     );
 
     test(
+        "says_that_the_mirror_image_of_the_layout_fits_far_better",
+        withInputs(async (cwd) => {
+            const faces = octahedron.faces.map((face) => [...face].reverse());
+            const layout = obj({ positions: octahedron.positions, faces });
+            writeFileSync(path.join(cwd, "layout.obj"), layout);
+            // The sphere is a subdivided octahedron.
+            writeFileSync(path.join(cwd, "landmarks.txt"), "0\n1\n2\n3\n4\n5\n");
+            const args = ["embed", ...inputs, "--work-limit", "100000"];
+            const finished = await run(args, { cwd });
+            expect(finished.exitCode).toBe(0);
+            expect(finished.stderr).toMatch(/^note: the mirror image of the layout [^\n]+\.\n$/);
+            const json = await run([...args, "--json"], { cwd });
+            const { doubts, cost } = JSON.parse(json.stdout) as EmbeddingDocument;
+            expect(doubts).toMatchObject([{ kind: "mirrored", vertices: null }]);
+            expect(doubts[0]!.cost).toBeLessThan(0.75 * cost!);
+        }),
+    );
+
+    test(
         "repairs_when_asked_and_says_what_it_did",
         withInputs(async (cwd) => {
             const target = `${obj(sphere(3))}v 5 5 5\n`;
