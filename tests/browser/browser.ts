@@ -79,6 +79,50 @@ export async function untilStatus(page: Page, pattern: RegExp): Promise<string> 
 export const solved = /^(Solved|Stopped at)/;
 export const ready = /^Ready to solve/;
 
+/** Chooses a shape or example in the gallery. */
+export async function choose(page: Page, title: string): Promise<void> {
+    await page.click("#gallery-button");
+    await page.locator("#gallery-cards button", { hasText: title }).first().click();
+}
+
+/** Waits until the solve of something just chosen is over; `before` is the target's name till then. */
+export async function untilSolvedAfter(page: Page, before: string | null): Promise<void> {
+    await page.waitForFunction(
+        (name) => document.getElementById("target-name")?.textContent !== name,
+        before,
+    );
+    await page.waitForFunction(() =>
+        /^\d/.test(document.getElementById("cost")?.textContent ?? ""),
+    );
+    await untilStatus(page, solved);
+}
+
+/** Where a landmark is in the target's view, found by its dot's colour under the pointer. */
+export async function placeOf(
+    page: Page,
+    view: string,
+    label: RegExp,
+): Promise<{ x: number; y: number }> {
+    const box = await page.locator(`${view} canvas`).boundingBox();
+    if (!box) throw new Error(`${view} is not shown`);
+    for (let y = 12; y < box.height; y += 12)
+        for (let x = 12; x < box.width; x += 12) {
+            await page.mouse.move(box.x + x, box.y + y);
+            await frames(page, 1);
+            const text = (await page.textContent("#target-hover")) ?? "";
+            if (label.test(text)) return { x: box.x + x, y: box.y + y };
+        }
+    throw new Error(`nothing in ${view} is called ${String(label)}`);
+}
+
+/** Lets the page draw. */
+export async function frames(page: Page, count = 2): Promise<void> {
+    await page.evaluate(async (number) => {
+        for (let frame = 0; frame < number; ++frame)
+            await new Promise((resolve) => requestAnimationFrame(resolve));
+    }, count);
+}
+
 /** A file as setInputFiles() takes it. */
 export function textFile(name: string, text: string) {
     return { name, mimeType: "text/plain", buffer: Buffer.from(text) };

@@ -1,6 +1,6 @@
 import type { FileChooser } from "playwright-core";
 import { expect, test } from "vitest";
-import { colorsOf, solved, untilStatus, useBrowser } from "./browser.js";
+import { colorsOf, frames, solved, untilSolvedAfter, untilStatus, useBrowser } from "./browser.js";
 
 const open = useBrowser();
 
@@ -48,19 +48,16 @@ test("every_control_is_reached_by_tab_and_shows_its_focus", async () => {
 test("an_example_is_chosen_solved_and_taken_home_with_the_keyboard_alone", async () => {
     const { page, complaints, close } = await open();
     await untilStatus(page, solved);
-    const name = await page.textContent("#layout-name");
-    for (let press = 0; press < 40; ++press) {
+    const before = await page.textContent("#target-name");
+    await page.keyboard.press("g");
+    const card = page.locator("#gallery-cards button", { hasText: "Pebble" });
+    await card.waitFor();
+    for (let press = 0; press < 60; ++press) {
+        if (await card.evaluate((one) => one === document.activeElement)) break;
         await page.keyboard.press("Tab");
-        if (await page.evaluate(() => document.activeElement?.id === "example")) break;
     }
-    await page.keyboard.press("ArrowDown");
-    await page.waitForFunction(
-        (before) => document.getElementById("layout-name")?.textContent !== before,
-        name,
-    );
-    await untilStatus(page, solved);
-    // Away from the list, where letters would choose an entry.
-    await page.keyboard.press("Tab");
+    await page.keyboard.press("Enter");
+    await untilSolvedAfter(page, before);
     const cost = await page.textContent("#cost");
     await page.keyboard.press("s");
     await page.waitForFunction(() => document.getElementById("cost")?.textContent === "–");
@@ -121,10 +118,7 @@ test("arrow_keys_turn_a_view_and_r_brings_it_back", async () => {
     await untilStatus(page, solved);
     await page.focus("#target-view canvas");
     const picture = async () => {
-        await page.evaluate(async () => {
-            for (let frame = 0; frame < 2; ++frame)
-                await new Promise((resolve) => requestAnimationFrame(resolve));
-        });
+        await frames(page);
         return JSON.stringify([...(await colorsOf(page, "#target-view canvas"))].sort());
     };
     const before = await picture();

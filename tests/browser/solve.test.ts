@@ -1,7 +1,16 @@
 import { Session, type EmbeddingDocument, type RefinedMapDocument } from "layout-embedding";
 import { expect, test } from "vitest";
 import { examples } from "../../web/src/examples/index.js";
-import { downloaded, drop, ready, solved, untilStatus, useBrowser } from "./browser.js";
+import {
+    choose,
+    downloaded,
+    drop,
+    ready,
+    solved,
+    untilSolvedAfter,
+    untilStatus,
+    useBrowser,
+} from "./browser.js";
 import { ball, cube, toObj } from "./meshes.js";
 
 const open = useBrowser();
@@ -121,8 +130,8 @@ test("a_solve_can_be_cancelled_and_the_page_stays_usable", async () => {
     expect(await page.textContent("#target-name")).toBe("ball.obj");
     expect(await page.textContent("#landmarks-name")).toContain("by proximity");
     expect(await page.textContent("#embedded")).not.toMatch(/^(\d+) of \1$/);
-    await page.selectOption("#example", { index: 1 });
-    await untilStatus(page, solved);
+    await choose(page, "Pebble");
+    await untilSolvedAfter(page, "ball.obj");
     expect(await page.textContent("#embedded")).toBe("12 of 12");
     expect(complaints).toEqual([]);
     await close();

@@ -1,9 +1,11 @@
 import { createWorkerClient } from "layout-embedding/worker";
-import type { WorkerSession } from "./model/engine.js";
+import type { Worker } from "./model/engine.js";
 
-/** A session of the package in a worker of its own. */
-export async function createSession(): Promise<WorkerSession> {
+/** The package in a worker of its own. */
+export async function startWorker(): Promise<Worker> {
     const worker = await createWorkerClient();
-    const session = await worker.createSession();
-    return { session, terminate: () => worker.terminate() };
+    return {
+        createSession: () => worker.createSession(),
+        terminate: () => worker.terminate(),
+    };
 }

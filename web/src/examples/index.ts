@@ -6,7 +6,10 @@ import { flattened, rounded, type Polygons } from "./polygons.js";
 
 /** A layout, a target and landmarks made by the page itself. */
 export interface Example {
+    /** For links and file names. */
+    readonly name: string;
     readonly title: string;
+    readonly description: string;
     readonly make: () => {
         readonly layout: MeshArrays;
         readonly target: MeshArrays;
@@ -23,12 +26,15 @@ function arrays(name: string, polygons: Polygons): MeshArrays {
 }
 
 function example(
-    title: string,
     name: string,
+    title: string,
+    description: string,
     build: () => { layout: Polygons; target: Polygons; landmarks: number[] },
 ): Example {
     return {
+        name,
         title,
+        description,
         make: () => {
             const { layout, target, landmarks } = build();
             return {
@@ -41,7 +47,7 @@ function example(
 }
 
 export const examples: readonly Example[] = [
-    example("Beast: a cage on a smooth animal", "beast", beast),
-    example("Pebble: a cube, twisted", "pebble", pebble),
-    example("Knot: a ring, tied", "knot", knot),
+    example("beast", "Beast", "a cage on a smooth animal", beast),
+    example("pebble", "Pebble", "a cube, twisted", pebble),
+    example("knot", "Knot", "a ring, tied", knot),
 ];

@@ -1,14 +1,36 @@
-import type { MeshInput, SolveOptions } from "layout-embedding";
+import type { Algorithm, EmbedProgress, MeshArrays, MeshInput } from "layout-embedding";
 import type { Example } from "../examples/index.js";
-import { improvingWords, phaseWords, titleOf } from "./describe.js";
+import type { Shape } from "../gallery/catalogue.js";
+import { algorithmWords, improvingWords, phaseWords, titleOf } from "./describe.js";
 import type { Engine } from "./engine.js";
 import { assignRoles, look } from "./files.js";
-import type { Activity, AppState, Item, Problem } from "./state.js";
+import { LandmarkEditor, unsolved } from "./landmark_editor.js";
+import {
+    completeIds,
+    missingLandmarks,
+    noLandmarks,
+    placedLandmarks,
+    type Landmarks,
+} from "./landmarks.js";
+import type { Activity, AppState, Display, Item, Origin, Problem } from "./state.js";
 import type { Store } from "./store.js";
+import { TraceRecorder } from "./trace.js";
 
 /** The same file or arrays can be read again: file contents are fetched each time. */
 export type Source = File | MeshInput;
-type Role = "layout" | "target";
+export type Role = "layout" | "target";
+
+/** What can be put away and opened again. */
+export interface SavedWork {
+    readonly layout: Source | null;
+    readonly target: Source | null;
+    readonly landmarks: Landmarks | null;
+    readonly making: boolean;
+    readonly quads: boolean;
+    readonly repair: boolean;
+    readonly options: AppState["options"];
+    readonly origin: Origin | null;
+}
 
 /** Errors that reading again with repair may get rid of. */
 const repairable = new Set([
@@ -17,6 +39,14 @@ const repairable = new Set([
     "coincidentVertices",
     "unusedVertex",
 ]);
+
+/** The heuristics that the result is compared with. */
+const heuristics: readonly Algorithm[] = ["greedy", "praun", "kraevoy", "schreiner"];
+
+/** A preview's search ends here, so that it keeps up with the hand. */
+const previewSeconds = 0.4;
+
+const nothingSolved = { ...unsolved, highlight: null, selected: null } as const;
 
 const nameOf = (source: Source): string => source.name ?? "mesh";
 
@@ -31,27 +61,51 @@ async function inputOf(source: Source): Promise<MeshInput> {
  * solve is running ends that solve first.
  */
 export class Actions {
+    readonly landmarks: LandmarkEditor;
     private readonly sources: Partial<Record<Role, Source>> = {};
     private queue: Promise<void> = Promise.resolve();
     private abort: AbortController | null = null;
     private problemCount = 0;
+    private previewing = false;
 
     constructor(
         private readonly store: Store<AppState>,
         private readonly engine: Engine,
-    ) {}
+    ) {
+        this.landmarks = new LandmarkEditor(store, {
+            dragged: () => void this.preview(),
+            edited: (wasSolved) => this.afterEdit(wasSolved),
+        });
+    }
 
     /** Loads an example and solves it. */
     openExample(example: Example): Promise<void> {
         return this.enqueue(async () => {
-            this.store.update({ notices: [] });
+            this.startAnew({ kind: "example", name: example.name });
             const { layout, target, landmarks } = example.make();
             if (!(await this.load("layout", layout)) || !(await this.load("target", target)))
                 return;
-            await this.attempt("Setting the landmarks", async () => {
-                const { landmarks: ids } = await this.engine.setLandmarks(landmarks);
-                this.store.update({ landmarks: { ids, source: "example" } });
-            });
+            this.store.update({ landmarks: placedLandmarks(landmarks, "example") });
+            await this.runSolve();
+        });
+    }
+
+    /**
+     * Loads a shape of the gallery and solves it: with the layout that its own landmarks make, or
+     * with the layout there is, from another shape of its class.
+     */
+    openShape(shape: Shape, keepLayout = false): Promise<void> {
+        return this.enqueue(async () => {
+            const opened = await this.attempt(`Fetching ${shape.title}`, () => shape.open());
+            if (!opened) return;
+            const { quads, layout } = this.store.get();
+            const keep = keepLayout && layout?.vertexCount === opened.landmarks.length;
+            this.startAnew({ kind: "shape", name: shape.id });
+            if (!(await this.load("target", opened.target))) return;
+            const landmarks = placedLandmarks(opened.landmarks, "shape", opened.names);
+            if (!keep && !(await this.makeLayout(opened.landmarks, quads, `${shape.title} layout`)))
+                return;
+            this.store.update({ landmarks });
             await this.runSolve();
         });
     }
@@ -64,18 +118,19 @@ export class Actions {
                 assignRoles(await Promise.all(files.map(look))),
             );
             if (!roles) return;
+            this.startAnew(null);
             this.store.update({ notices: roles.reason ? [roles.reason] : [] });
             if (roles.layout && !(await this.load("layout", roles.layout))) return;
             if (roles.target && !(await this.load("target", roles.target))) return;
             if (roles.landmarks) await this.readLandmarks(roles.landmarks);
-            else await this.guessLandmarks();
+            else if (roles.layout || roles.target) await this.guessLandmarks();
         });
     }
 
     /** One file for one role. */
     openAs(role: Role, source: Source): Promise<void> {
         return this.enqueue(async () => {
-            this.store.update({ notices: [] });
+            this.startAnew(null);
             if (await this.load(role, source)) await this.guessLandmarks();
         });
     }
@@ -84,12 +139,36 @@ export class Actions {
         return this.enqueue(() => this.readLandmarks(file));
     }
 
+    /** Work that was put away: everything as it was, but unsolved. */
+    restore(saved: SavedWork): Promise<void> {
+        return this.enqueue(async () => {
+            this.startAnew(saved.origin);
+            this.store.update({
+                repair: saved.repair,
+                options: saved.options,
+                quads: saved.quads,
+                making: saved.making,
+            });
+            if (saved.target && !(await this.load("target", saved.target))) return;
+            if (saved.layout && !(await this.load("layout", saved.layout))) return;
+            if (saved.landmarks) this.store.update({ landmarks: saved.landmarks });
+            if (saved.making) await this.rebuildLayout();
+        });
+    }
+
+    /** What restore() needs to bring everything back. */
+    saved(): SavedWork {
+        const { landmarks, making, quads, repair, options, origin } = this.store.get();
+        const { layout = null, target = null } = this.sources;
+        return { layout, target, landmarks, making, quads, repair, options, origin };
+    }
+
     /** The layout becomes the target, the target the layout. */
     swap(): Promise<void> {
         return this.enqueue(async () => {
             const { layout, target } = this.sources;
             if (!layout || !target) return;
-            this.store.update({ notices: [] });
+            this.startAnew(null);
             const before = { ...this.sources };
             if ((await this.load("layout", target)) && (await this.load("target", layout))) {
                 await this.guessLandmarks();
@@ -105,6 +184,37 @@ export class Actions {
         return this.enqueue(() => this.proximity());
     }
 
+    /** Starts or ends making the layout from landmarks on the target. */
+    setMaking(making: boolean): Promise<void> {
+        return this.enqueue(async () => {
+            if (!this.store.get().target || making === this.store.get().making) return;
+            this.landmarks.forget();
+            if (!making) {
+                this.store.update({ making, makingHint: null, placing: null });
+                return;
+            }
+            delete this.sources.layout;
+            this.store.update({
+                ...nothingSolved,
+                making,
+                layout: null,
+                landmarks: noLandmarks,
+                placing: 0,
+                makingHint: null,
+                notices: [],
+            });
+            return Promise.resolve();
+        });
+    }
+
+    /** Whether a layout that is made here gets quads; makes it again. */
+    setQuads(quads: boolean): void {
+        this.store.update({ quads });
+        const { making, origin } = this.store.get();
+        if (making) void this.enqueue(() => this.rebuildLayout());
+        else if (origin?.kind === "shape") void this.enqueue(() => this.remakeLayout());
+    }
+
     solve(): Promise<void> {
         return this.enqueue(() => this.runSolve());
     }
@@ -115,6 +225,37 @@ export class Actions {
         if (!this.abort || activity?.kind !== "solving") return;
         this.abort.abort();
         this.store.update({ activity: { ...activity, cancelling: true } });
+    }
+
+    /** Runs the heuristics on the same problem and shows the worst of them beside the result. */
+    compare(): Promise<void> {
+        return this.enqueue(async () => {
+            const { landmarks, layout, options } = this.store.get();
+            const ids = landmarks && completeIds(landmarks);
+            if (!ids || !layout) return;
+            const contenders = [];
+            for (const algorithm of heuristics) {
+                const result = await this.attempt(`Trying ${algorithmWords(algorithm)}`, () =>
+                    this.engine.solveBeside(ids, { algorithm, seed: options.seed }),
+                );
+                if (!result) return;
+                contenders.push({ algorithm, result });
+            }
+            const costs = contenders.map(({ result }) => (result.refined ? result.cost : -1));
+            const shown = Math.max(...costs) > 0 ? costs.indexOf(Math.max(...costs)) : null;
+            this.store.update({ comparison: { contenders, shown } });
+        });
+    }
+
+    /** Shows one of the compared embeddings beside the result; null for the layout. */
+    showContender(shown: number | null): void {
+        const { comparison } = this.store.get();
+        if (comparison) this.store.update({ comparison: { ...comparison, shown } });
+    }
+
+    /** Shows an improvement of the last solve by its place; null for the result. */
+    showStep(step: number | null): void {
+        this.store.update({ step });
     }
 
     /** The files of the result, by name; empty if there is none. */
@@ -135,22 +276,31 @@ export class Actions {
         this.store.update({ repair });
     }
 
+    setLive(live: boolean): void {
+        this.store.update({ live });
+    }
+
     highlight(item: Item | null): void {
         const { highlight } = this.store.get();
         if (item?.kind === highlight?.kind && item?.id === highlight?.id) return;
         this.store.update({ highlight: item });
     }
 
-    show(
-        change: Partial<
-            Pick<AppState, "layoutShown" | "patchesShown" | "wireframe" | "camerasLinked">
-        >,
-    ): void {
-        this.store.update(change);
+    select(item: Item | null): void {
+        this.store.update({ selected: item });
+    }
+
+    show(change: Partial<Display>): void {
+        this.store.update({ display: { ...this.store.get().display, ...change } });
     }
 
     dismiss(id: number): void {
         this.store.update({ problems: this.store.get().problems.filter((p) => p.id !== id) });
+    }
+
+    /** Says something that is worth a line, but no problem. */
+    notice(text: string): void {
+        this.store.update({ notices: [...this.store.get().notices, text] });
     }
 
     /** Shows something thrown as a problem. */
@@ -167,6 +317,17 @@ export class Actions {
         this.cancel();
         this.queue = this.queue.then(task).catch((error: unknown) => this.report(error));
         return this.queue;
+    }
+
+    private startAnew(origin: Origin | null): void {
+        this.landmarks.forget();
+        this.store.update({
+            notices: [],
+            origin,
+            making: false,
+            makingHint: null,
+            placing: null,
+        });
     }
 
     /** Does something with its name shown; null if it failed, which is reported. */
@@ -205,11 +366,13 @@ export class Actions {
         );
         if (!loaded) return false;
         this.sources[role] = source;
-        const { notices, problems } = this.store.get();
+        const { notices, problems, layout, target, landmarks } = this.store.get();
+        const names = landmarks?.names.length === layout?.vertexCount ? landmarks?.names : [];
         this.store.update({
             notices: [...notices, ...loaded.notes],
             // What was wrong with an earlier attempt at this role is settled.
             problems: problems.filter((p) => p.remedy === null),
+            landmarks: layout && target ? missingLandmarks(layout.vertexCount, names) : null,
         });
         return true;
     }
@@ -235,7 +398,7 @@ export class Actions {
     private async proximity(): Promise<void> {
         await this.attempt("Placing landmarks by proximity", async () => {
             const { landmarks, notes } = await this.engine.landmarksByProximity();
-            this.setLandmarks(landmarks, "by proximity", notes);
+            this.replaceLandmarks(landmarks, "by proximity", notes);
         });
     }
 
@@ -243,64 +406,176 @@ export class Actions {
         await this.attempt(`Reading ${file.name}`, async () => {
             const bytes = await file.arrayBuffer();
             const { landmarks, notes } = await this.engine.setLandmarks({ name: file.name, bytes });
-            this.setLandmarks(landmarks, file.name, notes);
+            this.replaceLandmarks(landmarks, file.name, notes);
         });
     }
 
-    private setLandmarks(ids: Uint32Array, source: string, notes: readonly string[]): void {
-        const { notices } = this.store.get();
-        this.store.update({
-            ...nothingSolved,
-            landmarks: { ids, source },
-            notices: [...notices, ...notes],
-        });
+    private replaceLandmarks(ids: Uint32Array, source: string, notes: readonly string[]): void {
+        const { notices, landmarks } = this.store.get();
+        this.landmarks.replace(placedLandmarks(ids, source, landmarks?.names));
+        this.store.update({ placing: null, notices: [...notices, ...notes] });
+    }
+
+    /** What an edit of the landmarks entails: in live mode, what was solved is solved again. */
+    private afterEdit(wasSolved: boolean): void {
+        const { making, live, landmarks, activity } = this.store.get();
+        if (making) void this.enqueue(() => this.rebuildLayout());
+        else if (live && wasSolved && landmarks && completeIds(landmarks)) void this.solve();
+        // A solve for other landmarks is of no use any more.
+        else if (activity?.kind === "solving") this.cancel();
+    }
+
+    /** Makes the layout of the landmarks on the target, while it is being made. */
+    private async rebuildLayout(): Promise<void> {
+        const { landmarks, making, quads } = this.store.get();
+        const ids = landmarks && completeIds(landmarks);
+        if (!making || !landmarks) return;
+        if (!ids) {
+            delete this.sources.layout;
+            this.store.update({ layout: null, makingHint: null });
+            return;
+        }
+        try {
+            const made = await this.engine.templateLayout(ids, { quads, numbering: "loaded" });
+            const source: MeshArrays = { ...made, name: "layout made here" };
+            const layout = await this.engine.loadLayout(source, {});
+            this.sources.layout = source;
+            this.store.update({ layout, makingHint: null });
+        } catch (error) {
+            delete this.sources.layout;
+            const makingHint = error instanceof Error ? error.message : String(error);
+            this.store.update({ layout: null, makingHint });
+        }
+    }
+
+    /** Makes the layout of the gallery's shape again, with or without quads. */
+    private async remakeLayout(): Promise<void> {
+        const { landmarks, quads, origin, layout } = this.store.get();
+        const ids = landmarks && completeIds(landmarks);
+        if (!ids || origin?.kind !== "shape") return;
+        if (!(await this.makeLayout(ids, quads, layout?.name ?? "layout"))) return;
+        this.store.update({ landmarks });
+        await this.runSolve();
+    }
+
+    /** A layout of the target and these landmarks, loaded. */
+    private async makeLayout(ids: Uint32Array, quads: boolean, name: string): Promise<boolean> {
+        const made = await this.attempt("Making a layout of the landmarks", () =>
+            this.engine.templateLayout(ids, { quads, numbering: "loaded" }),
+        );
+        if (!made) return false;
+        const { positions, corners, offsets } = made;
+        return this.load("layout", { positions, corners, offsets, name });
+    }
+
+    /** A quick embedding for the landmarks as they are; skipped while one is being made. */
+    private async preview(): Promise<void> {
+        if (this.previewing || !this.store.get().live || this.store.get().making) return;
+        this.cancel();
+        this.previewing = true;
+        try {
+            for (;;) {
+                const { landmarks, options } = this.store.get();
+                const ids = landmarks && completeIds(landmarks);
+                if (!ids) return;
+                const preview = await this.engine.solveBeside(ids, {
+                    algorithm: "greedy",
+                    timeLimit: previewSeconds,
+                    seed: options.seed,
+                });
+                const now = this.store.get();
+                // The hand may have gone on, or come to rest and been overtaken by the full solve.
+                if (now.result || now.activity) return;
+                this.store.update({ preview });
+                if (now.landmarks === landmarks) return;
+            }
+        } catch {
+            // Two landmarks in one place and the like: the full solve says what is wrong.
+        } finally {
+            this.previewing = false;
+        }
     }
 
     private async runSolve(): Promise<void> {
         const { layout, target, landmarks, options } = this.store.get();
-        if (!layout || !target || !landmarks) return;
-        this.abort = new AbortController();
+        const ids = landmarks && completeIds(landmarks);
+        if (!layout || !target || !ids) return;
+        const abort = new AbortController();
+        this.abort = abort;
         this.store.update({
+            ...unsolved,
             activity: activity("solving", phaseWords.prepare),
-            result: null,
-            livePaths: null,
+            preview: this.store.get().preview,
             problems: [],
         });
-        const request: SolveOptions = {
-            gap: options.gap,
-            seed: options.seed,
-            signal: this.abort.signal,
-            onProgress: ({ phase, progress, cost, lowerBound, paths }) => {
-                const { activity: current } = this.store.get();
-                if (!current) return;
-                // Once there is an embedding, nobody knows how long it takes to find a better one.
-                const improving = phase === "search" && Number.isFinite(cost);
-                this.store.update({
-                    activity: {
-                        ...current,
-                        phase: improving ? improvingWords : phaseWords[phase],
-                        progress: improving ? null : progress,
-                        cost,
-                        lowerBound,
-                    },
-                    ...(paths ? { livePaths: paths } : {}),
-                });
-            },
+        const recorder = new TraceRecorder();
+        // The views are brought up to date once per frame, however often the worker reports.
+        let latest: EmbedProgress | null = null;
+        let paths: EmbedProgress["paths"] = null;
+        let frame = 0;
+        const showLatest = () => {
+            frame = 0;
+            if (latest) this.showProgress(latest, paths, recorder);
+            paths = null;
         };
-        if (options.timeLimit !== null) request.timeLimit = options.timeLimit;
         try {
-            this.store.update({ result: await this.engine.solve(request) });
+            await this.engine.useLandmarks(ids);
+            const { algorithm, gap, seed, timeLimit, workLimit } = options;
+            const result = await this.engine.solve({
+                gap,
+                seed,
+                ...(algorithm !== null && { algorithm }),
+                ...(timeLimit !== null && { timeLimit }),
+                ...(workLimit !== null && { workLimit }),
+                signal: abort.signal,
+                onProgress: (progress) => {
+                    recorder.add(progress);
+                    latest = progress;
+                    paths = progress.paths ?? paths;
+                    frame ||= requestAnimationFrame(showLatest);
+                },
+            });
+            cancelAnimationFrame(frame);
+            showLatest();
+            // Landmarks that were edited meanwhile belong to another problem.
+            const now = this.store.get().landmarks;
+            if (now && sameIds(completeIds(now), ids))
+                this.store.update({ result, trace: recorder.finished(result), preview: null });
         } catch (error) {
             this.report(error);
         } finally {
+            cancelAnimationFrame(frame);
             this.abort = null;
             this.store.update({ activity: null });
         }
     }
+
+    private showProgress(
+        { phase, progress, cost, lowerBound, seconds }: EmbedProgress,
+        paths: EmbedProgress["paths"],
+        recorder: TraceRecorder,
+    ): void {
+        const { activity: current } = this.store.get();
+        if (!current) return;
+        // Once there is an embedding, nobody knows how long it takes to find a better one.
+        const improving = phase === "search" && Number.isFinite(cost);
+        this.store.update({
+            activity: {
+                ...current,
+                phase: improving ? improvingWords : phaseWords[phase],
+                progress: improving ? null : progress,
+                cost,
+                lowerBound,
+            },
+            trace: recorder.snapshot(seconds),
+            ...(paths ? { livePaths: paths, preview: null } : {}),
+        });
+    }
 }
 
-/** A change of layout, target or landmarks makes everything solved before meaningless. */
-const nothingSolved = { landmarks: null, result: null, livePaths: null, highlight: null } as const;
+function sameIds(a: Uint32Array | null, b: Uint32Array): boolean {
+    return a?.length === b.length && a.every((vertex, i) => vertex === b[i]);
+}
 
 function activity(kind: Activity["kind"], phase: string): Activity {
     return {

@@ -1,4 +1,4 @@
-import type { EmbedPhase, EmbedResult, EmbedStatus } from "layout-embedding";
+import type { Algorithm, EmbedPhase, EmbedResult, EmbedStatus } from "layout-embedding";
 
 const numbers = new Intl.NumberFormat("en", { maximumSignificantDigits: 6 });
 const counts = new Intl.NumberFormat("en");
@@ -7,8 +7,8 @@ const counts = new Intl.NumberFormat("en");
 export const formatLength = (value: number): string =>
     Number.isFinite(value) ? numbers.format(value) : "–";
 
-export const formatCount = (value: number, noun: string): string =>
-    `${counts.format(value)} ${noun}${value === 1 ? "" : "s"}`;
+export const formatCount = (value: number, noun: string, plural = `${noun}s`): string =>
+    `${counts.format(value)} ${value === 1 ? noun : plural}`;
 
 export const formatGap = (gap: number): string =>
     gap === 0 ? "0 %" : `${(100 * gap).toFixed(gap < 0.001 ? 4 : 2)} %`;
@@ -26,6 +26,18 @@ export const phaseWords: Record<EmbedPhase, string> = {
 
 /** The search phase once there is an embedding. */
 export const improvingWords = "Looking for a shorter embedding";
+
+const algorithmNames: Partial<Record<string, string>> = {
+    greedy: "Shortest path first",
+    praun: "Praun et al. 2001",
+    kraevoy: "Kraevoy et al. 2003",
+    schreiner: "Schreiner et al. 2004",
+    "branch-and-bound": "Branch and bound",
+    exact: "Exact",
+};
+
+export const algorithmWords = (algorithm: Algorithm): string =>
+    algorithmNames[algorithm] ?? algorithm;
 
 export const statusWords: Record<EmbedStatus, string> = {
     optimal: "Solved: proved to be the shortest",

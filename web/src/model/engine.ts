@@ -3,18 +3,28 @@ import type {
     EmbedResult,
     ExportedFiles,
     LandmarkInput,
+    LandmarkOptions,
     LandmarksInfo,
     LayoutInfo,
     LoadOptions,
     MeshInput,
     SolveOptions,
     TargetInfo,
+    TemplateLayout,
+    TemplateOptions,
 } from "layout-embedding";
 
-/** A session in a worker, and how to end that worker from outside. */
-export interface WorkerSession {
-    readonly session: EmbeddingSession;
+/** A worker of the package, and how to end it from outside. */
+export interface Worker {
+    readonly createSession: () => Promise<EmbeddingSession>;
     readonly terminate: () => void;
+}
+
+interface Running {
+    readonly worker: Worker;
+    readonly main: EmbeddingSession;
+    /** For solves that must not replace the result: heuristics to compare with, previews. */
+    side: Promise<EmbeddingSession> | null;
 }
 
 /** After one of these the worker has to be replaced. */
@@ -31,71 +41,115 @@ const fatal = new Set([
  * with the same input when it has crashed, so that a crash loses nothing that was loaded.
  */
 export class Engine {
-    private worker: Promise<WorkerSession> | null = null;
+    private running: Promise<Running> | null = null;
     private layout: [MeshInput, LoadOptions] | null = null;
     private target: [MeshInput, LoadOptions] | null = null;
-    private landmarks: LandmarkInput | "proximity" | null = null;
+    /** As loaded, after any repair. */
+    private landmarks: Uint32Array | null = null;
 
-    constructor(private readonly start: () => Promise<WorkerSession>) {}
+    constructor(private readonly start: () => Promise<Worker>) {}
 
     async loadLayout(input: MeshInput, options: LoadOptions): Promise<LayoutInfo> {
-        const info = await this.use((session) => session.loadLayout(input, options));
+        const info = await this.use(({ main }) => main.loadLayout(input, options));
         this.layout = [input, options];
         this.landmarks = null;
+        await this.endSide();
         return info;
     }
 
     async loadTarget(input: MeshInput, options: LoadOptions): Promise<TargetInfo> {
-        const info = await this.use((session) => session.loadTarget(input, options));
+        const info = await this.use(({ main }) => main.loadTarget(input, options));
         this.target = [input, options];
         this.landmarks = null;
+        await this.endSide();
         return info;
     }
 
-    async setLandmarks(input: LandmarkInput): Promise<LandmarksInfo> {
-        const info = await this.use((session) => session.setLandmarks(input));
-        this.landmarks = input;
+    async setLandmarks(
+        input: LandmarkInput,
+        options: LandmarkOptions = {},
+    ): Promise<LandmarksInfo> {
+        const info = await this.use(({ main }) => main.setLandmarks(input, options));
+        this.landmarks = info.landmarks;
         return info;
+    }
+
+    /** Makes sure that these are the landmarks, as loaded. */
+    async useLandmarks(ids: Uint32Array): Promise<void> {
+        const { landmarks } = this;
+        if (landmarks?.length === ids.length && landmarks.every((vertex, i) => vertex === ids[i]))
+            return;
+        await this.setLandmarks(ids, { numbering: "loaded" });
     }
 
     async landmarksByProximity(): Promise<LandmarksInfo> {
-        const info = await this.use((session) => session.landmarksByProximity());
-        this.landmarks = "proximity";
+        const info = await this.use(({ main }) => main.landmarksByProximity());
+        this.landmarks = info.landmarks;
         return info;
     }
 
+    templateLayout(landmarks: LandmarkInput, options: TemplateOptions): Promise<TemplateLayout> {
+        return this.use(({ main }) => main.templateLayout(landmarks, options));
+    }
+
     solve(options: SolveOptions): Promise<EmbedResult> {
-        return this.use((session) => session.solve(options));
+        return this.use(({ main }) => main.solve(options));
+    }
+
+    /** Solves beside the main session, whose result stays; landmarks as loaded. */
+    solveBeside(landmarks: Uint32Array, options: SolveOptions): Promise<EmbedResult> {
+        return this.use(async (running) => {
+            running.side ??= this.sideSession(running.worker);
+            const session = await running.side;
+            await session.setLandmarks(landmarks, { numbering: "loaded" });
+            return session.solve(options);
+        });
     }
 
     exportFiles(): Promise<ExportedFiles> {
-        return this.use((session) => session.exportFiles());
+        return this.use(({ main }) => main.exportFiles());
     }
 
-    private async use<Result>(
-        call: (session: EmbeddingSession) => Promise<Result>,
-    ): Promise<Result> {
-        this.worker ??= this.restored();
-        const current = this.worker;
+    private async use<Result>(call: (running: Running) => Promise<Result>): Promise<Result> {
+        this.running ??= this.restored();
+        const current = this.running;
         try {
-            return await call((await current).session);
+            return await call(await current);
         } catch (error) {
             const code = error instanceof Error && "code" in error ? String(error.code) : "";
-            if (fatal.has(code) && this.worker === current) {
-                this.worker = null;
-                current.then(({ terminate }) => terminate()).catch(() => undefined);
+            if (fatal.has(code) && this.running === current) {
+                this.running = null;
+                current.then(({ worker }) => worker.terminate()).catch(() => undefined);
             }
             throw error;
         }
     }
 
-    private async restored(): Promise<WorkerSession> {
+    private async restored(): Promise<Running> {
         const worker = await this.start();
-        const { session } = worker;
+        const main = await worker.createSession();
+        await this.loadInto(main);
+        if (this.landmarks) await main.setLandmarks(this.landmarks, { numbering: "loaded" });
+        return { worker, main, side: null };
+    }
+
+    private async sideSession(worker: Worker): Promise<EmbeddingSession> {
+        const session = await worker.createSession();
+        await this.loadInto(session);
+        return session;
+    }
+
+    private async loadInto(session: EmbeddingSession): Promise<void> {
         if (this.layout) await session.loadLayout(...this.layout);
         if (this.target) await session.loadTarget(...this.target);
-        if (this.landmarks === "proximity") await session.landmarksByProximity();
-        else if (this.landmarks) await session.setLandmarks(this.landmarks);
-        return worker;
+    }
+
+    /** New input makes the side session worthless; its memory goes back. */
+    private async endSide(): Promise<void> {
+        const running = await this.running;
+        const side = running?.side;
+        if (!running || !side) return;
+        running.side = null;
+        await side.then((session) => session.dispose()).catch(() => undefined);
     }
 }

@@ -1,17 +1,16 @@
-import type { EmbedResult, LayoutInfo, Polylines, TargetInfo } from "layout-embedding";
+import type { Algorithm, EmbedResult, LayoutInfo, Polylines, TargetInfo } from "layout-embedding";
+import type { Landmarks } from "./landmarks.js";
+import type { Trace } from "./trace.js";
 
-export interface Landmarks {
-    /** Target vertex per layout vertex. */
-    readonly ids: Uint32Array;
-    /** Where they come from, for people: "by proximity", a file name, "from the example". */
-    readonly source: string;
-}
-
-export interface SolveOptions {
+export interface SolveSettings {
+    /** Null for the package's default. */
+    readonly algorithm: Algorithm | null;
     /** (cost - lower bound) / cost at which the search may stop. */
     readonly gap: number;
     /** Seconds; null for none. */
     readonly timeLimit: number | null;
+    /** Units of work; null for the algorithm's own limit. */
+    readonly workLimit: number | null;
     readonly seed: number;
 }
 
@@ -41,45 +40,127 @@ export interface Problem {
     readonly remedy: { readonly label: string; readonly apply: () => void } | null;
 }
 
-/** A layout edge or a layout vertex (which is a landmark on the target). */
-export type Item = { readonly kind: "edge" | "vertex"; readonly id: number };
+/** A layout edge, a layout vertex (a landmark on the target), or a layout face (a patch there). */
+export interface Item {
+    readonly kind: "edge" | "vertex" | "face";
+    readonly id: number;
+}
+
+/** What one of the heuristics made of the problem. */
+export interface Contender {
+    readonly algorithm: Algorithm;
+    /** Null while it has not been run. */
+    readonly result: EmbedResult | null;
+}
+
+export interface Comparison {
+    readonly contenders: readonly Contender[];
+    /** The one shown beside the result; null for none. */
+    readonly shown: number | null;
+}
+
+/** Where the input came from, for links and for other targets of the same class. */
+export interface Origin {
+    readonly kind: "example" | "shape";
+    /** The example's name, or "class/member" of the shape that is the target. */
+    readonly name: string;
+}
+
+export type Theme = "system" | "light" | "dark";
+
+/** What is drawn, and how. */
+export interface Display {
+    readonly layoutShown: boolean;
+    readonly patchesShown: boolean;
+    readonly pathsShown: boolean;
+    readonly dotsShown: boolean;
+    readonly wireframe: boolean;
+    readonly camerasLinked: boolean;
+    readonly orthographic: boolean;
+    /** Share of the target cut away from the front, in [0, 1). */
+    readonly clip: number;
+    readonly theme: Theme;
+}
 
 export interface AppState {
     readonly layout: LayoutInfo | null;
     readonly target: TargetInfo | null;
+    readonly origin: Origin | null;
+    /** Null while layout or target is missing, unless a layout is being made. */
     readonly landmarks: Landmarks | null;
-    readonly options: SolveOptions;
+    /** Whether the layout is made from the landmarks on the target. */
+    readonly making: boolean;
+    /** Whether a layout that is made here gets quads where that is possible. */
+    readonly quads: boolean;
+    /** Why no layout could be made of the landmarks so far; null if one was. */
+    readonly makingHint: string | null;
+    /** The layout vertex that the next click on the target places. */
+    readonly placing: number | null;
+    readonly undoable: boolean;
+    readonly redoable: boolean;
+    /** Whether the embedding follows while a landmark is dragged. */
+    readonly live: boolean;
+    readonly options: SolveSettings;
     /** Mend what can be mended safely when a file is read. */
     readonly repair: boolean;
     readonly activity: Activity | null;
     /** Paths of the running search, or of a search that ended without a result. */
     readonly livePaths: Polylines | null;
+    readonly trace: Trace;
+    /** The improvement that is shown instead of the result; null for the result. */
+    readonly step: number | null;
+    /** A quick embedding for the landmarks as they are being dragged. */
+    readonly preview: EmbedResult | null;
     readonly result: EmbedResult | null;
+    readonly comparison: Comparison | null;
     /** Newest last. */
     readonly problems: readonly Problem[];
     /** What was done with dropped files, what a repair did; the latest only. */
     readonly notices: readonly string[];
+    /** What an edit did, for screen readers. */
+    readonly announcement: string;
+    /** Under the pointer. */
     readonly highlight: Item | null;
-    readonly layoutShown: boolean;
-    readonly patchesShown: boolean;
-    readonly wireframe: boolean;
-    readonly camerasLinked: boolean;
+    /** Chosen with a click or a key. */
+    readonly selected: Item | null;
+    readonly display: Display;
 }
 
 export const initialState: AppState = {
     layout: null,
     target: null,
+    origin: null,
     landmarks: null,
-    options: { gap: 0.01, timeLimit: null, seed: 1 },
+    making: false,
+    quads: true,
+    makingHint: null,
+    placing: null,
+    undoable: false,
+    redoable: false,
+    live: true,
+    options: { algorithm: null, gap: 0.01, timeLimit: null, workLimit: null, seed: 1 },
     repair: false,
     activity: null,
     livePaths: null,
+    trace: { points: [], incumbents: [] },
+    step: null,
+    preview: null,
     result: null,
+    comparison: null,
     problems: [],
     notices: [],
+    announcement: "",
     highlight: null,
-    layoutShown: true,
-    patchesShown: true,
-    wireframe: false,
-    camerasLinked: true,
+    selected: null,
+    display: {
+        layoutShown: true,
+        patchesShown: true,
+        pathsShown: true,
+        dotsShown: true,
+        wireframe: false,
+        camerasLinked: true,
+        orthographic: false,
+        clip: 0,
+        theme: "system",
+    },
 };

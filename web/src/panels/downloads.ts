@@ -1,9 +1,13 @@
+import { strToU8, zip, type Zippable } from "fflate";
 import type { Actions } from "../model/actions.js";
+import { completeIds } from "../model/landmarks.js";
+import { packSession } from "../model/session_file.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { download, element } from "./dom.js";
+import { linkTo } from "./link.js";
 
-/** Buttons for the result's files and a picture; returns what the shortcut does. */
+/** Buttons for files, a picture, the session and a link; returns what the shortcut does. */
 export function downloadsPanel(
     store: Store<AppState>,
     actions: Actions,
@@ -21,21 +25,51 @@ export function downloadsPanel(
             "click",
             () => void save((name) => name === button.dataset["file"]),
         );
-    element("screenshot", HTMLButtonElement).addEventListener("click", () => {
-        screenshot().then(
-            (picture) => download("embedding.png", picture),
-            (error: unknown) => actions.report(error),
-        );
+    const onClick = (id: string, act: () => Promise<void>) => {
+        const button = element(id, HTMLButtonElement);
+        button.addEventListener("click", () => {
+            act().catch((error: unknown) => actions.report(error));
+        });
+        return button;
+    };
+    const all = onClick("download-all", async () => {
+        const { landmarks } = store.get();
+        const files: Zippable = { ...(await actions.exportFiles()) };
+        const ids = landmarks && completeIds(landmarks);
+        if (ids) files["landmarks.txt"] = strToU8(`${ids.join("\n")}\n`);
+        download("embedding.zip", await zipped(files));
+    });
+    onClick("screenshot", async () => download("embedding.png", await screenshot()));
+    const session = onClick("save-session", async () =>
+        download("session.zip", await zipped(await packSession(actions.saved()))),
+    );
+    const link = onClick("copy-link", async () => {
+        const address = linkTo(store.get());
+        if (!address) return;
+        await navigator.clipboard.writeText(address);
+        actions.notice("The link is in the clipboard.");
     });
     store.watch(
-        (state) => [state.result],
-        (result) => {
-            for (const button of buttons) button.disabled = !result?.refined;
+        (state) => [state.result, state.target, state.origin],
+        (result, target, origin) => {
+            for (const button of [...buttons, all]) button.disabled = !result?.refined;
+            session.disabled = !target;
+            link.disabled = !origin;
+            link.title = origin ? "" : "Only examples and shapes of the gallery have links.";
         },
     );
     return () => {
         if (store.get().result?.refined) void save(() => true);
     };
+}
+
+function zipped(files: Zippable): Promise<Blob> {
+    return new Promise((resolve, reject) => {
+        zip(files, (error, bytes) => {
+            if (error) reject(error);
+            else resolve(new Blob([new Uint8Array(bytes)], { type: "application/zip" }));
+        });
+    });
 }
 
 const typeOf = (name: string) => (name.endsWith(".json") ? "application/json" : "model/obj");

@@ -1,8 +1,9 @@
 import type { EmbedResult, LayoutInfo } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
 import { formatGap, formatLength, meaning } from "../model/describe.js";
-import type { AppState } from "../model/state.js";
+import type { AppState, Item } from "../model/state.js";
 import type { Store } from "../model/store.js";
+import { patchAreas } from "../view3d/geometry.js";
 import { create, element, setText } from "./dom.js";
 
 /** The figures of the result, or of the search while it runs. */
@@ -26,17 +27,34 @@ export function resultPanel(store: Store<AppState>, actions: Actions): void {
             setText("meaning", result ? meaning(result) : "");
         },
     );
+
+    const edges = element("edges", HTMLDetailsElement);
+    const patches = element("patches", HTMLDetailsElement);
+    const fill = () => {
+        const { result, layout } = store.get();
+        const shown = result?.refined && layout ? { result, layout } : null;
+        edges.hidden = patches.hidden = !shown;
+        const edgeRows = shown && edges.open ? rowsOfEdges(shown.result) : [];
+        element("edge-rows", HTMLElement).replaceChildren(
+            ...edgeRows.map((cells, id) => line(cells, { kind: "edge", id }, actions)),
+        );
+        const patchRows = shown && patches.open ? rowsOfPatches(shown.result, shown.layout) : [];
+        element("patch-rows", HTMLElement).replaceChildren(
+            ...patchRows.map((cells, id) => line(cells, { kind: "face", id }, actions)),
+        );
+    };
+    edges.addEventListener("toggle", fill);
+    patches.addEventListener("toggle", fill);
+    store.watch((state) => [state.result, state.layout], fill);
     store.watch(
-        (state) => [state.result, state.layout],
-        (result, layout) => fillTable(result, layout, actions),
-    );
-    store.watch(
-        (state) => [state.highlight],
-        (highlight) => {
-            for (const row of element("edge-rows", HTMLTableSectionElement).rows)
+        (state) => [state.highlight, state.selected],
+        (highlight, selected) => {
+            const marked = highlight ?? selected;
+            for (const row of document.querySelectorAll<HTMLTableRowElement>("tr[data-kind]"))
                 row.classList.toggle(
                     "highlighted",
-                    highlight?.kind === "edge" && row.dataset["edge"] === String(highlight.id),
+                    marked?.kind === row.dataset["kind"] &&
+                        String(marked?.id) === row.dataset["id"],
                 );
         },
     );
@@ -46,25 +64,38 @@ function surfaceLength(result: EmbedResult): number {
     return result.edges.reduce((sum, edge) => sum + edge.length, 0);
 }
 
-function fillTable(result: EmbedResult | null, layout: LayoutInfo | null, actions: Actions): void {
-    element("edges", HTMLDetailsElement).hidden = !result?.refined || !layout;
-    const order = new Map(Array.from(result?.insertionOrder ?? [], (edge, i) => [edge, i + 1]));
-    const rows = (result?.edges ?? []).map((edge) => {
-        const row = create("tr");
-        row.dataset["edge"] = String(edge.id);
-        const header = create("th", String(edge.id));
-        header.scope = "row";
-        row.append(
-            header,
-            create("td", `${edge.layoutEdge[0]} – ${edge.layoutEdge[1]}`),
-            create("td", formatLength(edge.length)),
-            create("td", String(order.get(edge.id) ?? "–")),
-        );
-        row.addEventListener("pointerenter", () =>
-            actions.highlight({ kind: "edge", id: edge.id }),
-        );
-        row.addEventListener("pointerleave", () => actions.highlight(null));
-        return row;
+function rowsOfEdges(result: EmbedResult): string[][] {
+    const order = new Map(Array.from(result.insertionOrder, (edge, i) => [edge, i + 1]));
+    return result.edges.map(({ id, layoutEdge, length }) => [
+        `${layoutEdge[0]} – ${layoutEdge[1]}`,
+        formatLength(length),
+        String(order.get(id) ?? "–"),
+    ]);
+}
+
+function rowsOfPatches({ refined }: EmbedResult, layout: LayoutInfo): string[][] {
+    const areas = refined ? patchAreas(refined, layout.faceCount) : [];
+    return Array.from(areas, (area, f) => {
+        const corners = layout.corners.subarray(layout.offsets[f], layout.offsets[f + 1]);
+        return [corners.join(", "), formatLength(area)];
     });
-    element("edge-rows", HTMLTableSectionElement).replaceChildren(...rows);
+}
+
+/** A row that shows what it is about in the views: under the pointer, or chosen with its button. */
+function line(cells: readonly string[], item: Item, actions: Actions): HTMLElement {
+    const row = create("tr");
+    row.dataset["kind"] = item.kind;
+    row.dataset["id"] = String(item.id);
+    const header = create("th");
+    header.scope = "row";
+    const button = create("button", String(item.id), "plain");
+    button.type = "button";
+    const word = item.kind === "edge" ? "edge" : "patch";
+    button.setAttribute("aria-label", `Show ${word} ${item.id}`);
+    button.addEventListener("click", () => actions.select(item));
+    header.append(button);
+    row.append(header, ...cells.map((text) => create("td", text)));
+    row.addEventListener("pointerenter", () => actions.highlight(item));
+    row.addEventListener("pointerleave", () => actions.highlight(null));
+    return row;
 }

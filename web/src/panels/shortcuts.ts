@@ -1,18 +1,51 @@
-import { element } from "./dom.js";
+import { create, element } from "./dom.js";
 
-const typing = "input:not([type=checkbox]):not([type=file]), textarea, select, [contenteditable]";
+const typing =
+    "input:not([type=checkbox]):not([type=file]):not([type=range]), textarea, select, [contenteditable]";
 
-/** Single-key shortcuts. They rest while something is typed or a dialog is open. */
-export function shortcuts(keys: Readonly<Record<string, () => void>>): void {
+export interface Shortcut {
+    /** As KeyboardEvent.key names it, with Ctrl+ and Shift+ before it; shown in the list of keys. */
+    readonly key: string;
+    readonly does: string;
+    /** Left out where a view handles the key itself. */
+    readonly act?: () => void;
+}
+
+/** Shortcuts and their list. They rest while something is typed or a dialog is open. */
+export function shortcuts(keys: readonly Shortcut[]): void {
     const help = element("help", HTMLDialogElement);
     const showHelp = () => help.showModal();
+    const all = [...keys, { key: "?", does: "This list", act: showHelp }];
+    element("keys", HTMLTableSectionElement).replaceChildren(...all.map(row));
     element("help-button", HTMLButtonElement).addEventListener("click", showHelp);
     addEventListener("keydown", (event) => {
-        if (event.ctrlKey || event.metaKey || event.altKey || event.repeat || help.open) return;
+        if (event.altKey || event.defaultPrevented) return;
+        if (document.querySelector("dialog[open]")) return;
         if (event.target instanceof Element && event.target.matches(typing)) return;
-        const action = event.key === "?" ? showHelp : keys[event.key.toLowerCase()];
-        if (!action) return;
+        const control = event.ctrlKey || event.metaKey;
+        const letter = event.key.length === 1 ? event.key.toUpperCase() : event.key;
+        const name =
+            (control ? "Ctrl+" : "") + (control && event.shiftKey ? "Shift+" : "") + letter;
+        const wanted = name === "Ctrl+Y" ? "Ctrl+Shift+Z" : name === "Backspace" ? "Delete" : name;
+        // Single letters must not fire again and again; steps back and forth may.
+        if (event.repeat && !control) return;
+        const found = all.find(({ key }) => key.toUpperCase() === wanted.toUpperCase());
+        if (!found?.act) return;
         event.preventDefault();
-        action();
+        found.act();
     });
+}
+
+function row({ key, does }: Shortcut): HTMLElement {
+    const line = create("tr");
+    const head = create("th");
+    head.scope = "row";
+    const separated =
+        key === "?" || !key.includes("+") || key.startsWith("+") ? key.split(" ") : key.split("+");
+    separated.forEach((part, i) => {
+        if (i > 0) head.append(" ");
+        head.append(create("kbd", part.length === 1 ? part.toUpperCase() : part));
+    });
+    line.append(head, create("td", does));
+    return line;
 }

@@ -1,8 +1,18 @@
+import type { Algorithm } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
-import { formatSeconds, statusWords } from "../model/describe.js";
+import { algorithmWords, formatSeconds, statusWords } from "../model/describe.js";
+import { completeIds, countPlaced } from "../model/landmarks.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { element, setText } from "./dom.js";
+
+const algorithms: readonly Algorithm[] = [
+    "branch-and-bound",
+    "greedy",
+    "praun",
+    "kraevoy",
+    "schreiner",
+];
 
 /** Options, the button that solves and cancels, progress. */
 export function solvePanel(store: Store<AppState>, actions: Actions): void {
@@ -17,7 +27,7 @@ export function solvePanel(store: Store<AppState>, actions: Actions): void {
         (state) => [state.activity, state.layout, state.target, state.landmarks],
         (activity, layout, target, landmarks) => {
             const solving = activity?.kind === "solving";
-            const ready = layout && target && landmarks;
+            const ready = layout && target && landmarks && completeIds(landmarks);
             button.textContent = solving
                 ? activity.cancelling
                     ? "Cancelling …"
@@ -73,12 +83,27 @@ function waitingSentence({ layout, target, landmarks }: AppState): string {
     if (!layout && !target) return "Choose a layout and a target.";
     if (!layout) return "Choose a layout.";
     if (!target) return "Choose a target.";
-    return landmarks ? "Ready to solve." : "Choose landmarks, or place them by proximity.";
+    if (!landmarks) return "Choose landmarks, or place them by proximity.";
+    const missing = landmarks.places.length - countPlaced(landmarks);
+    if (missing === 0) return "Ready to solve.";
+    return missing === landmarks.places.length
+        ? "Choose landmarks, or place them by proximity."
+        : `Landmarks missing: ${missing}.`;
 }
 
 function optionInputs(store: Store<AppState>, actions: Actions): void {
+    const algorithm = element("algorithm", HTMLSelectElement);
+    algorithm.append(
+        new Option("Default", ""),
+        ...algorithms.map((name) => new Option(algorithmWords(name), name)),
+    );
+    algorithm.addEventListener("change", () => {
+        const chosen = algorithms.find((name) => name === algorithm.value) ?? null;
+        actions.setOptions({ algorithm: chosen });
+    });
     const gap = element("gap", HTMLInputElement);
     const timeLimit = element("time-limit", HTMLInputElement);
+    const workLimit = element("work-limit", HTMLInputElement);
     const seed = element("seed", HTMLInputElement);
     const number = (input: HTMLInputElement) =>
         input.value !== "" && input.validity.valid ? input.valueAsNumber : null;
@@ -89,6 +114,10 @@ function optionInputs(store: Store<AppState>, actions: Actions): void {
     timeLimit.addEventListener("change", () =>
         actions.setOptions({ timeLimit: number(timeLimit) }),
     );
+    workLimit.addEventListener("change", () => {
+        const millions = number(workLimit);
+        actions.setOptions({ workLimit: millions === null ? null : 1e6 * millions });
+    });
     seed.addEventListener("change", () => {
         const value = number(seed);
         if (value !== null) actions.setOptions({ seed: value });
@@ -96,8 +125,10 @@ function optionInputs(store: Store<AppState>, actions: Actions): void {
     store.watch(
         (state) => [state.options],
         (options) => {
+            algorithm.value = options.algorithm ?? "";
             gap.value = String(Number((100 * options.gap).toPrecision(12)));
             timeLimit.value = options.timeLimit === null ? "" : String(options.timeLimit);
+            workLimit.value = options.workLimit === null ? "" : String(options.workLimit / 1e6);
             seed.value = String(options.seed);
         },
     );

@@ -1,37 +1,73 @@
-import type { EmbedResult, LayoutInfo, TargetInfo } from "layout-embedding";
+import type { EmbedResult, Polylines, RefinedMesh } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
 import { formatLength } from "../model/describe.js";
-import type { AppState, Item } from "../model/state.js";
+import { visibleDetours } from "../model/detours.js";
+import { landmarkLabel } from "../model/landmarks.js";
+import type { AppState, Display, Item } from "../model/state.js";
 import type { Store } from "../model/store.js";
-import { onThemeChange } from "../view3d/colors.js";
-import { LayoutView, TargetView } from "../view3d/views.js";
+import { chainPaths } from "../view3d/geometry.js";
+import { LayoutView } from "../view3d/layout_view.js";
+import type { MeshView, Sighting } from "../view3d/mesh_view.js";
+import { TargetView } from "../view3d/target_view.js";
 import { element, setText } from "./dom.js";
+import { selectionCard } from "./selection.js";
+import { onThemeChange } from "./theme.js";
 
 const keys = "Arrow keys turn it, plus and minus zoom.";
 
-/** Both 3D views and the options beside them. Throws if WebGL is not available. */
-export function stage(
-    store: Store<AppState>,
-    actions: Actions,
-): { resetView: () => void; screenshot: () => Promise<Blob> } {
-    const targetView = new TargetView(element("target-view", HTMLElement), `Target in 3D. ${keys}`);
-    const layoutView = new LayoutView(element("layout-view", HTMLElement), `Layout in 3D. ${keys}`);
-    const views = [targetView, layoutView];
-    for (const view of views) {
-        view.applyTheme();
-        view.onHover = (item) => actions.highlight(item);
-    }
-    onThemeChange(() => {
+/** What shortcuts do in the views. */
+export interface Stage {
+    fit(): void;
+    reset(): void;
+    /** Takes the chosen landmark off the target. */
+    remove(): void;
+    /** Stops placing landmarks; chooses nothing. */
+    stop(): void;
+    screenshot(): Promise<Blob>;
+}
+
+/** The 3D views, what the pointer and keys do in them, and the options beside them. */
+export function stage(store: Store<AppState>, actions: Actions): Stage {
+    const editor = actions.landmarks;
+    const highlight = (sighting: Sighting | null) => actions.highlight(sighting?.item ?? null);
+    const targetView = new TargetView(
+        element("target-view", HTMLElement),
+        `Target in 3D. ${keys} Enter places a landmark in the middle, Shift and arrow keys move the chosen one.`,
+        {
+            hover: (sighting) => {
+                highlight(sighting);
+                const { placing } = store.get();
+                const vertex = sighting?.item?.kind === "vertex" ? null : sighting?.vertex;
+                targetView.setGhost(placing ?? 0, placing === null ? null : (vertex ?? null));
+            },
+            click: ({ item, vertex }) => {
+                const { placing } = store.get();
+                if (placing === null || item?.kind === "vertex") actions.select(item);
+                else if (vertex !== null) editor.placeOn(vertex);
+            },
+            drag: (id, vertex) => editor.drag(id, vertex),
+            dragEnd: () => editor.endDrag(),
+        },
+    );
+    const layoutView = new LayoutView(
+        element("layout-view", HTMLElement),
+        `Layout in 3D. ${keys}`,
+        {
+            hover: highlight,
+            click: ({ item }) => {
+                if (item?.kind === "vertex" && !store.get().making) editor.startPlacing(item.id);
+                else actions.select(item);
+            },
+        },
+    );
+    let compareView: TargetView | null = null;
+    const views: MeshView[] = [targetView, layoutView];
+    link(views, store);
+    onThemeChange(store, () => {
         for (const view of views) view.applyTheme();
         targetView.setSurface(...surfaceOf(store.get()));
+        compareView?.setSurface(...compareSurface(store.get()));
     });
-
-    targetView.viewer.onPoseChange = () => {
-        if (store.get().camerasLinked) layoutView.viewer.setPose(targetView.viewer.pose());
-    };
-    layoutView.viewer.onPoseChange = () => {
-        if (store.get().camerasLinked) targetView.viewer.setPose(layoutView.viewer.pose());
-    };
 
     store.watch(
         (state) => [state.target],
@@ -41,79 +77,237 @@ export function stage(
         (state) => [state.layout],
         (layout) => layoutView.setLayout(layout),
     );
-    store.watch(surfaceOf, (target, result, layout) => {
-        targetView.setSurface(target, result, layout);
-    });
-    // After the surface: the dots take their normals from it.
+    store.watch(surfaceInputs, () => targetView.setSurface(...surfaceOf(store.get())));
     store.watch(
         (state) => [state.target, state.landmarks],
-        (target, landmarks) => targetView.setLandmarks(target, landmarks?.ids ?? null),
+        (_, landmarks) => targetView.setLandmarks(landmarks),
     );
     store.watch(
-        (state) => [state.result, state.livePaths],
-        (result, livePaths) => targetView.setPaths(result, livePaths),
+        (state) => [state.layout, state.landmarks],
+        (_, landmarks) => layoutView.setLandmarks(landmarks),
     );
     store.watch(
-        (state) => [state.wireframe],
-        (wireframe) => targetView.setWireframe(wireframe),
+        (state) => [state.result, state.preview, state.livePaths, state.step, state.trace],
+        () => targetView.setPaths(pathsOf(store.get())),
     );
     store.watch(
-        (state) => [state.highlight, state.result, state.livePaths, state.layout],
-        () => {
-            const { highlight } = store.get();
-            for (const view of views) view.highlight(highlight);
-            setText("target-hover", highlight ? describe(highlight, store.get()) : "");
+        (state) => [state.highlight, state.selected, state.placing],
+        (pointed, selected, placing) => {
+            const chosen: Item | null = placing === null ? null : { kind: "vertex", id: placing };
+            for (const view of views) view.highlight(pointed ?? chosen ?? selected);
+            setText("target-hover", pointed ? describe(pointed, store.get()) : "");
+            targetView.viewer.canvas.classList.toggle("placing", placing !== null);
+            if (placing === null) targetView.setGhost(0, null);
         },
     );
     store.watch(
-        (state) => [state.layoutShown],
-        (shown) => {
-            element("layout-view", HTMLElement).hidden = !shown;
-            element("stage", HTMLElement).classList.toggle("alone", !shown);
+        (state) => [state.comparison, state.result],
+        (comparison, result) => {
+            const shown = comparison?.shown ?? null;
+            const figure = element("compare-view", HTMLElement);
+            figure.hidden = shown === null;
+            if (shown === null) return;
+            if (!compareView) {
+                compareView = new TargetView(figure, `Heuristic in 3D. ${keys}`, {
+                    hover: highlight,
+                    click: ({ item }) => actions.select(item),
+                });
+                compareView.applyTheme();
+                views.push(compareView);
+                link(views, store);
+            }
+            const { target, landmarks, display } = store.get();
+            const other = comparison?.contenders[shown]?.result ?? null;
+            compareView.setTarget(target);
+            compareView.setSurface(...compareSurface(store.get()));
+            compareView.setLandmarks(landmarks);
+            compareView.setPaths(
+                chainsOf(other),
+                other && result ? visibleDetours(other, result) : new Set(),
+            );
+            compareView.setWireframe(display.wireframe);
+            compareView.setPathsVisible(display.pathsShown);
+            compareView.setDotsVisible(display.dotsShown);
+            compareView.viewer.setParallel(display.orthographic);
+            compareView.viewer.setPose(targetView.viewer.pose());
         },
     );
+    store.watch(
+        (state) => [state.display.layoutShown, state.comparison],
+        (shown, comparison) => {
+            const comparing = comparison !== null && comparison.shown !== null;
+            element("layout-view", HTMLElement).hidden = !shown || comparing;
+            const main = element("stage", HTMLElement);
+            main.classList.toggle("alone", !shown && !comparing);
+            main.classList.toggle("comparing", comparing);
+        },
+    );
+    bannerWhilePlacing(store, actions);
+    selectionCard(store, actions);
+    keysInTarget(store, actions, targetView);
 
-    const resetView = () => {
-        for (const view of views) view.viewer.resetView();
-    };
-    element("reset-view", HTMLButtonElement).addEventListener("click", resetView);
+    const each = (act: (view: MeshView) => void) => () => views.forEach(act);
+    const fit = each((view) => view.viewer.fit());
+    const reset = each((view) => view.viewer.resetView());
+    element("fit-view", HTMLButtonElement).addEventListener("click", fit);
+    element("reset-view", HTMLButtonElement).addEventListener("click", reset);
     checkbox("show-patches", "patchesShown");
-    checkbox("show-wireframe", "wireframe");
+    checkbox("show-paths", "pathsShown", (on) => views.forEach((view) => view.setPathsVisible(on)));
+    checkbox("show-dots", "dotsShown", (on) => views.forEach((view) => view.setDotsVisible(on)));
+    checkbox("show-wireframe", "wireframe", (on) => {
+        targetView.setWireframe(on);
+        compareView?.setWireframe(on);
+    });
     checkbox("show-layout", "layoutShown");
     checkbox("link-cameras", "camerasLinked");
-    return { resetView, screenshot: () => targetView.viewer.screenshot() };
+    checkbox("orthographic", "orthographic", (on) =>
+        views.forEach((view) => view.viewer.setParallel(on)),
+    );
+    const clip = element("clip", HTMLInputElement);
+    clip.addEventListener("input", () => actions.show({ clip: clip.valueAsNumber }));
+    store.watch(
+        (state) => [state.display.clip, state.target],
+        (share, _target) => {
+            clip.value = String(share);
+            targetView.setClip(share);
+        },
+    );
+    return {
+        fit,
+        reset,
+        remove: () => {
+            const { selected, placing } = store.get();
+            const id = selected?.kind === "vertex" ? selected.id : placing;
+            if (id !== null) editor.remove(id);
+        },
+        stop: () => {
+            editor.startPlacing(null);
+            actions.select(null);
+        },
+        screenshot: () => targetView.viewer.screenshot(),
+    };
 
     function checkbox(
         id: string,
-        field: "layoutShown" | "patchesShown" | "wireframe" | "camerasLinked",
+        field: { [F in keyof Display]: Display[F] extends boolean ? F : never }[keyof Display],
+        apply: (on: boolean) => void = () => undefined,
     ): void {
         const box = element(id, HTMLInputElement);
         box.addEventListener("change", () => actions.show({ [field]: box.checked }));
         store.watch(
-            (state) => [state[field]],
+            (state) => [state.display[field]],
             (on) => {
                 box.checked = on;
+                apply(on);
             },
         );
     }
 }
 
-/** What the target's surface is made from: building it anew is dear, so nothing else counts. */
-function surfaceOf(state: AppState): [TargetInfo | null, EmbedResult | null, LayoutInfo | null] {
-    const result = state.patchesShown ? state.result : null;
-    return [state.target, result, result ? state.layout : null];
+/** Cameras that follow each other, while they are linked. */
+function link(views: readonly MeshView[], store: Store<AppState>): void {
+    for (const view of views)
+        view.viewer.onPoseChange = () => {
+            if (!store.get().display.camerasLinked) return;
+            for (const other of views) if (other !== view) other.viewer.setPose(view.viewer.pose());
+        };
 }
 
-function describe(item: Item, { layout, landmarks, result }: AppState): string {
+/** The embedding whose patches and paths are shown; null for none. */
+const shownResult = ({ result, preview, step }: AppState): EmbedResult | null =>
+    step === null ? (result ?? preview) : null;
+
+/** What the target's surface is made from: building it anew is dear, so nothing else counts. */
+const surfaceInputs = (state: AppState) =>
+    [
+        state.target,
+        state.display.patchesShown ? (shownResult(state)?.refined ?? null) : null,
+        state.layout,
+    ] as const;
+
+function surfaceOf(state: AppState): [RefinedMesh | null, AppState["layout"]] {
+    const [, refined, layout] = surfaceInputs(state);
+    return [refined, layout];
+}
+
+function compareSurface({
+    comparison,
+    layout,
+    display,
+}: AppState): [RefinedMesh | null, AppState["layout"]] {
+    const result = comparison?.contenders[comparison.shown ?? -1]?.result ?? null;
+    return [display.patchesShown ? (result?.refined ?? null) : null, layout];
+}
+
+function chainsOf(result: EmbedResult | null): Polylines | null {
+    return result?.refined ? chainPaths(result.edges, result.refined) : null;
+}
+
+function pathsOf(state: AppState): Polylines | null {
+    const { step, trace, livePaths } = state;
+    if (step !== null) return trace.incumbents[step]?.paths ?? null;
+    return chainsOf(shownResult(state)) ?? livePaths;
+}
+
+/** Says which landmark the next click places. */
+function bannerWhilePlacing(store: Store<AppState>, actions: Actions): void {
+    const banner = element("placing", HTMLElement);
+    element("placing-stop", HTMLButtonElement).addEventListener("click", () =>
+        actions.landmarks.startPlacing(null),
+    );
+    store.watch(
+        (state) => [state.placing, state.landmarks, state.making],
+        (placing, landmarks, making) => {
+            banner.hidden = placing === null;
+            if (placing === null) return;
+            const label = landmarkLabel(landmarks, placing);
+            setText(
+                "placing-text",
+                making ? `Click to add landmark ${label}` : `Click where landmark ${label} goes`,
+            );
+        },
+    );
+}
+
+/** Landmarks by keyboard, in the target's view. */
+function keysInTarget(store: Store<AppState>, actions: Actions, view: TargetView): void {
+    const editor = actions.landmarks;
+    const steps: Record<string, [number, number]> = {
+        ArrowLeft: [-1, 0],
+        ArrowRight: [1, 0],
+        ArrowUp: [0, 1],
+        ArrowDown: [0, -1],
+    };
+    view.viewer.canvas.addEventListener("keydown", (event) => {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        const { landmarks, selected, placing } = store.get();
+        const step = event.shiftKey ? steps[event.key] : undefined;
+        if (step && selected?.kind === "vertex") {
+            const vertex = landmarks?.places[selected.id];
+            const next = vertex == null ? null : view.neighbour(vertex, ...step);
+            if (next !== null) editor.place(selected.id, next);
+        } else if (event.key === "Enter" && placing !== null) {
+            const vertex = view.vertexInTheMiddle();
+            if (vertex !== null) editor.placeOn(vertex);
+        } else {
+            return;
+        }
+        event.preventDefault();
+    });
+}
+
+function describe(item: Item, state: AppState): string {
+    const { layout, landmarks } = state;
     if (item.kind === "vertex") {
-        const landmark = landmarks?.ids[item.id];
+        const vertex = landmarks?.places[item.id];
         return (
-            `Layout vertex ${item.id}` +
-            (landmark === undefined ? "" : ` on target vertex ${landmark}`)
+            `Landmark ${landmarkLabel(landmarks, item.id)}` +
+            (vertex == null ? ", missing" : ` on target vertex ${vertex}`)
         );
     }
+    if (item.kind === "face") return `Patch ${item.id}`;
     const ends = layout ? [...layout.edges.subarray(2 * item.id, 2 * item.id + 2)] : [];
-    const length = result?.edges[item.id]?.length;
+    const length = shownResult(state)?.edges[item.id]?.length;
     return (
         `Edge ${item.id}, from ${ends.join(" to ")}` +
         (length === undefined ? "" : `, ${formatLength(length)} long`)

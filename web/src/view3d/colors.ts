@@ -6,6 +6,28 @@ import type { LayoutInfo } from "layout-embedding";
  */
 const fills = [0x77aadd, 0xee8866, 0xeedd88, 0x44bb99, 0xffaabb, 0x99ddff, 0xbbcc33];
 
+/** A landmark's colour, and that of the number on it. */
+export interface DotColor {
+    readonly fill: string;
+    readonly text: string;
+}
+
+/**
+ * Colours for landmarks, told apart by people with any common kind of colour vision: the scheme of
+ * Okabe and Ito. With more landmarks they come again; the numbers tell those apart.
+ */
+const dotColors: readonly DotColor[] = [
+    { fill: "#0072b2", text: "#ffffff" },
+    { fill: "#e69f00", text: "#000000" },
+    { fill: "#007a5a", text: "#ffffff" },
+    { fill: "#cc79a7", text: "#000000" },
+    { fill: "#56b4e9", text: "#000000" },
+    { fill: "#b84a00", text: "#ffffff" },
+    { fill: "#f0e442", text: "#000000" },
+];
+
+export const dotColor = (id: number): DotColor => dotColors[id % dotColors.length]!;
+
 /** Place in `fills` per layout face: neighbours across an edge always differ. */
 export function patchColors(layout: LayoutInfo): Uint32Array {
     const faceCount = layout.offsets.length - 1;
@@ -40,8 +62,8 @@ export interface ViewTheme {
     readonly background: string;
     readonly clay: string;
     readonly ink: string;
-    readonly halo: string;
     readonly accent: string;
+    readonly warn: string;
     readonly dot: string;
     readonly dotText: string;
 }
@@ -53,14 +75,9 @@ export function currentTheme(): ViewTheme {
         background: color("background"),
         clay: color("clay"),
         ink: color("ink"),
-        halo: color("halo"),
         accent: color("accent"),
+        warn: color("warn"),
         dot: color("dot"),
         dotText: color("dot-text"),
     };
-}
-
-/** Calls `listener` whenever the system switches between light and dark. */
-export function onThemeChange(listener: () => void): void {
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", listener);
 }

@@ -1,11 +1,19 @@
-import { BufferAttribute, BufferGeometry, Color, ShapeUtils, Vector2, Vector3 } from "three";
-import type { EmbeddedEdge, LayoutInfo, Polylines, RefinedMesh } from "layout-embedding";
-
-/** A geometry, and the unit normals of the mesh it was made from, 3 numbers per vertex. */
-export interface Surface {
-    readonly geometry: BufferGeometry;
-    readonly normals: Float32Array<ArrayBuffer>;
-}
+import {
+    BufferAttribute,
+    BufferGeometry,
+    Color,
+    ShapeUtils,
+    Triangle,
+    Vector2,
+    Vector3,
+} from "three";
+import type {
+    EmbeddedEdge,
+    LayoutInfo,
+    Polylines,
+    RefinedMesh,
+    TargetInfo,
+} from "layout-embedding";
 
 /** Area-weighted unit normals of a triangle mesh. */
 export function vertexNormals(
@@ -41,13 +49,15 @@ export function vertexNormals(
 }
 
 /** The target in one colour. */
-export function plainSurface(positions: Float64Array, triangles: Uint32Array): Surface {
-    const normals = vertexNormals(positions, triangles);
+export function plainSurface(
+    { positions, corners }: TargetInfo,
+    normals: Float32Array<ArrayBuffer>,
+): BufferGeometry {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
     geometry.setAttribute("normal", new BufferAttribute(normals, 3));
-    geometry.setIndex(new BufferAttribute(triangles, 1));
-    return { geometry, normals };
+    geometry.setIndex(new BufferAttribute(corners, 1));
+    return geometry;
 }
 
 /**
@@ -58,7 +68,7 @@ export function patchSurface(
     refined: RefinedMesh,
     colorOfPatch: Uint32Array,
     outside: string,
-): Surface {
+): BufferGeometry {
     const { positions, corners: triangles, patches } = refined;
     const vertexCount = positions.length / 3;
     const normals = vertexNormals(positions, triangles);
@@ -120,28 +130,98 @@ export function patchSurface(
     geometry.setAttribute("normal", new BufferAttribute(normal, 3));
     geometry.setAttribute("color", new BufferAttribute(color, 3));
     geometry.setIndex(new BufferAttribute(index, 1));
-    return { geometry, normals };
+    return geometry;
 }
 
-/** The layout's polygons, flat, each in its colour. */
-export function layoutSurface(layout: LayoutInfo, colorOfFace: Uint32Array): BufferGeometry {
+/** The triangles of one patch, to be drawn over the others. */
+export function patchOverlay(refined: RefinedMesh, patch: number): BufferGeometry {
+    const positions: number[] = [];
+    for (let t = 0; t < refined.patches.length; ++t) {
+        if (refined.patches[t] !== patch) continue;
+        for (const v of refined.corners.subarray(3 * t, 3 * t + 3))
+            positions.push(...refined.positions.subarray(3 * v, 3 * v + 3));
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
+    return geometry;
+}
+
+/** Surface area per patch. */
+export function patchAreas(refined: RefinedMesh, patchCount: number): Float64Array {
+    const areas = new Float64Array(patchCount);
+    const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+    refined.patches.forEach((patch, t) => {
+        if (patch < 0) return;
+        a.fromArray(refined.positions, 3 * refined.corners[3 * t]!);
+        b.fromArray(refined.positions, 3 * refined.corners[3 * t + 1]!).sub(a);
+        c.fromArray(refined.positions, 3 * refined.corners[3 * t + 2]!).sub(a);
+        areas[patch]! += b.cross(c).length() / 2;
+    });
+    return areas;
+}
+
+/** Finds the patch at a point of a target face. */
+export class PatchFinder {
+    private readonly offsets: Uint32Array;
+    private readonly triangles: Uint32Array;
+
+    constructor(
+        private readonly refined: RefinedMesh,
+        faceCount: number,
+    ) {
+        const { triangleFaces } = refined;
+        this.offsets = new Uint32Array(faceCount + 1);
+        for (const face of triangleFaces) this.offsets[face + 1]! += 1;
+        for (let f = 0; f < faceCount; ++f) this.offsets[f + 1]! += this.offsets[f]!;
+        this.triangles = new Uint32Array(triangleFaces.length);
+        const filled = this.offsets.slice();
+        triangleFaces.forEach((face, t) => {
+            this.triangles[filled[face]!++] = t;
+        });
+    }
+
+    /** The layout face; -1 outside all of them. */
+    at(face: number, point: Vector3): number {
+        const { positions, corners, patches } = this.refined;
+        const corner = (t: number, i: number) =>
+            new Vector3().fromArray(positions, 3 * corners[3 * t + i]!);
+        let best = -1;
+        let bestShare = -Infinity;
+        for (const t of this.triangles.subarray(this.offsets[face], this.offsets[face + 1])) {
+            const [a, b, c] = [corner(t, 0), corner(t, 1), corner(t, 2)];
+            const at = Triangle.getBarycoord(point, a, b, c, new Vector3());
+            const share = at ? Math.min(at.x, at.y, at.z) : -Infinity;
+            if (share > bestShare) [best, bestShare] = [patches[t]!, share];
+        }
+        return best;
+    }
+}
+
+/** The layout's polygons, flat, each in its colour, and the face that each triangle belongs to. */
+export function layoutSurface(
+    layout: LayoutInfo,
+    colorOfFace: Uint32Array,
+): { geometry: BufferGeometry; faceOfTriangle: Uint32Array } {
     const position: number[] = [];
     const color: number[] = [];
+    const faceOfTriangle: number[] = [];
     const fill = new Color();
     for (let f = 0; f + 1 < layout.offsets.length; ++f) {
         const face = layout.corners.subarray(layout.offsets[f], layout.offsets[f + 1]);
         const points = Array.from(face, (v) => new Vector3().fromArray(layout.positions, 3 * v));
         fill.setHex(colorOfFace[f]!);
-        for (const corner of triangulate(points).flat()) {
+        const triangles = triangulate(points);
+        for (const corner of triangles.flat()) {
             position.push(...points[corner]!.toArray());
             color.push(fill.r, fill.g, fill.b);
         }
+        faceOfTriangle.push(...triangles.map(() => f));
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(position), 3));
     geometry.setAttribute("color", new BufferAttribute(new Float32Array(color), 3));
     geometry.computeVertexNormals();
-    return geometry;
+    return { geometry, faceOfTriangle: Uint32Array.from(faceOfTriangle) };
 }
 
 /** Triangles of a polygon that need not be flat or convex, as places in `points`. */

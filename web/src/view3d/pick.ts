@@ -1,25 +1,28 @@
 import { Vector3, type PerspectiveCamera } from "three";
 import type { Polylines } from "layout-embedding";
 import type { Item } from "../model/state.js";
+import type { Dot } from "./dots.js";
 
 /** Pixels around the pointer in which something is found. */
 const reach = 10;
 
-/** What can be pointed at: points and paths with the surface's normals where they lie. */
+/** What can be pointed at. */
 export interface Pickable {
-    /** 3 coordinates per layout vertex. */
-    readonly places: Float32Array;
-    /** 3 per place; empty where everything is visible. */
-    readonly placeNormals: Float32Array;
+    readonly dots: readonly Dot[];
+    /** Cosine between normal and line of sight below which a dot is on the far side. */
+    readonly horizon: number;
     readonly paths: Polylines | null;
+    /** Distance from the eye to the surface under the pointer: what lies behind does not count. */
+    readonly surface: number;
 }
 
 /**
- * The landmark or path nearest to the pointer. What faces away from the eye does not count.
- * Linear in the number of points.
+ * The landmark or path nearest to the pointer. What is hidden does not count. Linear in the number
+ * of points.
  */
 export function pick(
-    { places, placeNormals, paths }: Pickable,
+    { dots, horizon, paths, surface }: Pickable,
+    slack: number,
     camera: PerspectiveCamera,
     canvas: HTMLCanvasElement,
     x: number,
@@ -27,9 +30,9 @@ export function pick(
 ): Item | null {
     const { clientWidth, clientHeight } = canvas;
     const point = new Vector3();
+    const normal = new Vector3();
     const screen = { x: 0, y: 0, depth: 0 };
-    const project = (source: ArrayLike<number>, i: number) => {
-        point.set(source[i]!, source[i + 1]!, source[i + 2]);
+    const project = () => {
         screen.depth = point.distanceTo(camera.position);
         point.project(camera);
         screen.x = ((point.x + 1) / 2) * clientWidth;
@@ -37,19 +40,15 @@ export function pick(
     };
 
     let best: Item | null = null;
-    let bestDepth = Infinity;
-    for (let v = 0; 3 * v < places.length; ++v) {
-        if (placeNormals.length > 0) {
-            const i = 3 * v;
-            const facing =
-                placeNormals[i]! * (camera.position.x - places[i]!) +
-                placeNormals[i + 1]! * (camera.position.y - places[i + 1]!) +
-                placeNormals[i + 2]! * (camera.position.z - places[i + 2]!);
-            if (facing < 0) continue;
-        }
-        project(places, 3 * v);
+    let bestDepth = surface + slack;
+    for (const dot of dots) {
+        point.set(dot.place[0]!, dot.place[1]!, dot.place[2]!);
+        normal.set(dot.normal[0]!, dot.normal[1]!, dot.normal[2]!);
+        const sight = camera.position.clone().sub(point).normalize();
+        if (normal.dot(sight) < horizon) continue;
+        project();
         if (Math.hypot(screen.x - x, screen.y - y) > reach || screen.depth >= bestDepth) continue;
-        best = { kind: "vertex", id: v };
+        best = { kind: "vertex", id: dot.id };
         bestDepth = screen.depth;
     }
     if (best || !paths) return best;
@@ -57,7 +56,8 @@ export function pick(
     for (let p = 0; p + 1 < paths.offsets.length; ++p) {
         let from: { x: number; y: number } | null = null;
         for (let i = paths.offsets[p]!; i < paths.offsets[p + 1]!; ++i) {
-            project(paths.points, 3 * i);
+            point.set(paths.points[3 * i]!, paths.points[3 * i + 1]!, paths.points[3 * i + 2]!);
+            project();
             const to = { x: screen.x, y: screen.y };
             if (
                 from &&

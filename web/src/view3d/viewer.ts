@@ -1,15 +1,19 @@
 import {
-    AmbientLight,
     Box3,
     Color,
     DirectionalLight,
     Group,
+    HemisphereLight,
     PerspectiveCamera,
+    Plane,
+    Raycaster,
     Scene,
     Sphere,
     Spherical,
+    Vector2,
     Vector3,
     WebGLRenderer,
+    type Ray,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
@@ -17,9 +21,13 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 export interface Pose {
     /** Unit vector from the centre of attention to the eye. */
     readonly direction: Vector3;
-    /** Distance of the eye in radii of the scene. */
+    /** Distance of the eye, relative to that from which all is seen. */
     readonly distance: number;
 }
+
+/** Degrees; the narrow one is as good as parallel. */
+const perspectiveAngle = 35;
+const parallelAngle = 1.5;
 
 const startDirection = new Vector3(0.62, 0.38, 0.78).normalize();
 
@@ -31,7 +39,7 @@ export class Viewer {
     readonly content = new Group();
     readonly canvas: HTMLCanvasElement;
     readonly renderer: WebGLRenderer;
-    readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+    readonly camera = new PerspectiveCamera(perspectiveAngle, 1, 0.01, 100);
     /** Called when a person has moved the camera, not after setPose(). */
     onPoseChange: (() => void) | null = null;
     /** Radius of what is shown. */
@@ -48,18 +56,21 @@ export class Viewer {
         label: string,
     ) {
         this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+        this.renderer.localClippingEnabled = true;
         this.canvas = this.renderer.domElement;
         this.canvas.tabIndex = 0;
-        this.canvas.setAttribute("role", "img");
+        // An application: screen readers then leave the arrow keys to it.
+        this.canvas.setAttribute("role", "application");
         this.canvas.setAttribute("aria-label", label);
         host.prepend(this.canvas);
 
-        const headlight = new DirectionalLight(0xffffff, 1.75);
+        const headlight = new DirectionalLight(0xffffff, 1.55);
         headlight.position.set(-0.5, 0.9, 1.2);
         const fill = new DirectionalLight(0xffffff, 0.45);
         fill.position.set(1, -0.4, 0.3);
         this.camera.add(headlight, fill);
-        this.scene.add(this.camera, new AmbientLight(0xffffff, 1.15), this.content);
+        const sky = new HemisphereLight(0xffffff, 0xa9b4c6, 1.5);
+        this.scene.add(this.camera, sky, this.content);
 
         this.controls = new OrbitControls(this.camera, this.canvas);
         this.controls.enableDamping = false;
@@ -82,6 +93,52 @@ export class Viewer {
         this.resetView();
     }
 
+    /** Shows everything again, from the side it is seen from now. */
+    fit(): void {
+        this.controls.target.copy(this.center);
+        const { direction } = this.pose();
+        this.moveTo(direction, this.fittingDistance(direction));
+        this.onPoseChange?.();
+    }
+
+    /** Parallel projection, or perspective. */
+    setParallel(on: boolean): void {
+        const pose = this.pose();
+        this.camera.fov = on ? parallelAngle : perspectiveAngle;
+        this.camera.updateProjectionMatrix();
+        this.setPose(pose);
+    }
+
+    /** A plane that cuts away a share of what is shown from the side of the eye; null for none. */
+    cutPlane(share: number): Plane | null {
+        if (share <= 0) return null;
+        const { direction } = this.pose();
+        const point = this.center.clone().addScaledVector(direction, (1 - 2 * share) * this.radius);
+        return new Plane().setFromNormalAndCoplanarPoint(direction.clone().negate(), point);
+    }
+
+    /** The line of sight through a point of the canvas, in CSS pixels. */
+    ray(x: number, y: number): Ray {
+        const { clientWidth, clientHeight } = this.canvas;
+        this.camera.updateMatrixWorld();
+        const at = new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
+        this.caster.setFromCamera(at, this.camera);
+        return this.caster.ray;
+    }
+
+    /** Unit vector in space for a direction on the screen, y upwards. */
+    onScreen(x: number, y: number): Vector3 {
+        this.camera.updateMatrixWorld();
+        const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+        const up = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
+        return right.multiplyScalar(x).addScaledVector(up, y).normalize();
+    }
+
+    /** Whether dragging turns the view. */
+    set turning(on: boolean) {
+        this.controls.enabled = on;
+    }
+
     setBackground(color: string): void {
         this.scene.background = new Color(color);
         this.requestRender();
@@ -89,7 +146,7 @@ export class Viewer {
 
     resetView(): void {
         this.controls.target.copy(this.center);
-        this.moveTo(startDirection, this.fittingDistance());
+        this.moveTo(startDirection, this.fittingDistance(startDirection));
     }
 
     pose(): Pose {
@@ -97,14 +154,14 @@ export class Viewer {
         const length = offset.length();
         return {
             direction: offset.divideScalar(length),
-            distance: length / this.fittingDistance(),
+            distance: length / this.fittingDistance(startDirection),
         };
     }
 
     /** Looks from the same side and as near as another view does. */
     setPose(pose: Pose): void {
         this.following = true;
-        this.moveTo(pose.direction, pose.distance * this.fittingDistance());
+        this.moveTo(pose.direction, pose.distance * this.fittingDistance(startDirection));
         this.following = false;
     }
 
@@ -129,6 +186,7 @@ export class Viewer {
         return this.renderer.info.render.frame;
     }
 
+    private readonly caster = new Raycaster();
     private readonly center = new Vector3();
     /** Some of the vertices, relative to the centre, in radii. */
     private silhouette: readonly Vector3[] = [];
@@ -143,14 +201,14 @@ export class Viewer {
         this.renderer.render(this.scene, this.camera);
     }
 
-    /** How far from the centre the eye has to be, on the starting side, to see everything. */
-    private fittingDistance(): number {
+    /** How far from the centre the eye has to be, on one side, to see everything. */
+    private fittingDistance(direction: Vector3): number {
         const tangent = Math.tan(((this.camera.fov / 2) * Math.PI) / 180);
-        const right = new Vector3().crossVectors(this.camera.up, startDirection).normalize();
-        const up = new Vector3().crossVectors(startDirection, right);
+        const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
+        const up = new Vector3().crossVectors(direction, right);
         let distance = 1;
         for (const point of this.silhouette) {
-            const toward = point.dot(startDirection);
+            const toward = point.dot(direction);
             const x = Math.abs(point.dot(right)) / (tangent * this.camera.aspect);
             const y = Math.abs(point.dot(up)) / tangent;
             distance = Math.max(distance, toward + 1.14 * Math.max(x, y));
@@ -159,8 +217,9 @@ export class Viewer {
     }
 
     private moveTo(direction: Vector3, distance: number): void {
-        this.controls.minDistance = 0.05 * this.radius;
-        this.controls.maxDistance = 20 * this.radius;
+        const fitting = this.fittingDistance(startDirection);
+        this.controls.minDistance = 0.02 * fitting;
+        this.controls.maxDistance = 8 * fitting;
         this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
         this.controls.update();
         this.requestRender();
@@ -187,7 +246,7 @@ export class Viewer {
             ArrowDown: [0, step],
         };
         const offset = this.camera.position.clone().sub(this.controls.target);
-        const turn = turns[event.key];
+        const turn = event.shiftKey ? undefined : turns[event.key];
         if (turn) {
             const spherical = new Spherical().setFromVector3(offset);
             spherical.theta += turn[0];

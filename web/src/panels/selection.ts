@@ -1,0 +1,78 @@
+import type { Actions } from "../model/actions.js";
+import { formatLength } from "../model/describe.js";
+import { landmarkLabel } from "../model/landmarks.js";
+import type { AppState, Item } from "../model/state.js";
+import type { Store } from "../model/store.js";
+import { patchAreas } from "../view3d/geometry.js";
+import { create, element, setText } from "./dom.js";
+
+/** A card with the figures of the landmark, path or patch that was chosen. */
+export function selectionCard(store: Store<AppState>, actions: Actions): void {
+    const card = element("selection", HTMLElement);
+    const onClick = (id: string, act: (item: Item) => void) => {
+        const button = element(id, HTMLButtonElement);
+        button.addEventListener("click", () => {
+            const { selected } = store.get();
+            if (selected) act(selected);
+        });
+        return button;
+    };
+    const move = onClick("selection-move", ({ id }) => actions.landmarks.startPlacing(id));
+    const remove = onClick("selection-remove", ({ id }) => actions.landmarks.remove(id));
+    onClick("selection-close", () => actions.select(null));
+    store.watch(
+        (state) => [state.selected, state.result, state.landmarks, state.layout, state.placing],
+        (selected, _result, _landmarks, _layout, placing) => {
+            const figures = selected && figuresOf(selected, store.get());
+            card.hidden = !figures || placing !== null;
+            if (!selected || !figures) return;
+            move.hidden = remove.hidden = selected.kind !== "vertex";
+            setText("selection-title", titleOf(selected, store.get()));
+            element("selection-figures", HTMLElement).replaceChildren(
+                ...figures.map(([name, value]) => {
+                    const row = create("div");
+                    row.append(create("dt", name), create("dd", value));
+                    return row;
+                }),
+            );
+        },
+    );
+}
+
+function titleOf({ kind, id }: Item, { landmarks }: AppState): string {
+    if (kind === "vertex") return `Landmark ${landmarkLabel(landmarks, id)}`;
+    return kind === "edge" ? `Edge ${id}` : `Patch ${id}`;
+}
+
+/** Null where the item is not there any more. */
+function figuresOf({ kind, id }: Item, state: AppState): [string, string][] | null {
+    const { layout, landmarks, result } = state;
+    if (kind === "vertex") {
+        const vertex = landmarks?.places[id];
+        if (vertex === undefined) return null;
+        return [["Target vertex", vertex === null ? "missing" : String(vertex)]];
+    }
+    if (!layout) return null;
+    if (kind === "edge") {
+        const edge = result?.edges[id];
+        if (id >= layout.edgeCount) return null;
+        const place = result?.insertionOrder.indexOf(id) ?? -1;
+        const ends = layout.edges.subarray(2 * id, 2 * id + 2);
+        return [
+            ["Between", [...ends].map((v) => landmarkLabel(landmarks, v)).join(" – ")],
+            ["Length", edge ? formatLength(edge.length) : "–"],
+            ["Embedded as number", place >= 0 ? String(place + 1) : "–"],
+        ];
+    }
+    if (id >= layout.faceCount) return null;
+    const corners = layout.corners.subarray(layout.offsets[id], layout.offsets[id + 1]);
+    const refined = result?.refined;
+    const areas = refined ? patchAreas(refined, layout.faceCount) : null;
+    const total = areas?.reduce((sum, area) => sum + area, 0) ?? 0;
+    const area = areas?.[id];
+    return [
+        ["Corners", [...corners].join(", ")],
+        ["Area", area === undefined ? "–" : formatLength(area)],
+        ["Share", area === undefined ? "–" : `${((100 * area) / total).toFixed(1)} %`],
+    ];
+}

@@ -1,0 +1,137 @@
+import { DoubleSide, FrontSide, Vector3, type BufferGeometry } from "three";
+import type { LayoutInfo, Polylines, RefinedMesh, TargetInfo } from "layout-embedding";
+import type { Landmarks } from "../model/landmarks.js";
+import { currentTheme, patchColors } from "./colors.js";
+import { Dots, type Dot } from "./dots.js";
+import {
+    PatchFinder,
+    patchOverlay,
+    patchSurface,
+    plainSurface,
+    vertexNormals,
+} from "./geometry.js";
+import { MeshView, type ViewHit, type ViewListener } from "./mesh_view.js";
+import { SurfacePicker } from "./surface_picker.js";
+
+/** The target, with landmarks, paths and patches on it. */
+export class TargetView extends MeshView {
+    private target: TargetInfo | null = null;
+    private normals = new Float32Array();
+    private landmarks: Landmarks | null = null;
+    private refined: RefinedMesh | null = null;
+    private picker: SurfacePicker | null = null;
+    private patches: PatchFinder | null = null;
+    /** Where a landmark would go. */
+    private readonly ghost = new Dots(-0.15, 0.7);
+
+    constructor(host: HTMLElement, label: string, listener: ViewListener) {
+        super(host, label, -0.15, listener);
+        this.viewer.content.add(this.ghost.points);
+    }
+
+    override applyTheme(): void {
+        super.applyTheme();
+        this.ghost.setTheme(currentTheme());
+    }
+
+    setTarget(target: TargetInfo | null): void {
+        this.target = target;
+        this.normals = target
+            ? vertexNormals(target.positions, target.corners)
+            : new Float32Array();
+        this.picker = target ? new SurfacePicker(target.positions, target.corners) : null;
+        this.viewer.frameOn(target?.positions ?? []);
+    }
+
+    /** Shows the patches of an embedding, or the bare target. */
+    setSurface(refined: RefinedMesh | null, layout: LayoutInfo | null): void {
+        const theme = currentTheme();
+        const { target, material } = this;
+        const patched = target !== null && refined !== null && layout !== null;
+        this.refined = patched ? refined : null;
+        this.patches = null;
+        if (patched) {
+            this.setGeometry(patchSurface(refined, patchColors(layout), theme.clay));
+            material.color.set(0xffffff);
+        } else {
+            this.setGeometry(target ? plainSurface(target, this.normals) : null);
+            material.color.set(theme.clay);
+        }
+        material.vertexColors = patched;
+        material.side = material.clippingPlanes ? DoubleSide : this.side();
+        material.needsUpdate = true;
+        this.viewer.requestRender();
+    }
+
+    setLandmarks(landmarks: Landmarks | null): void {
+        this.landmarks = landmarks;
+        const dots: Dot[] = [];
+        landmarks?.places.forEach((vertex, id) => {
+            if (vertex !== null) dots.push(this.dotOn(id, vertex));
+        });
+        this.shownDots = this.target ? dots : [];
+        this.dots.setDots(this.shownDots, this.viewer.radius, landmarks?.places.length ?? 0);
+        this.viewer.requestRender();
+    }
+
+    /** Shows where landmark `id` would go; null for nowhere. */
+    setGhost(id: number, vertex: number | null): void {
+        const dots = vertex === null ? [] : [this.dotOn(id, vertex)];
+        this.ghost.setDots(dots, this.viewer.radius, this.landmarks?.places.length ?? 0);
+        this.viewer.requestRender();
+    }
+
+    /** `detours` are drawn in the colour of what is longer than it need be. */
+    setPaths(paths: Polylines | null, detours?: ReadonlySet<number>): void {
+        this.shownPaths = paths;
+        this.tubes.setPaths(paths, detours);
+        this.viewer.requestRender();
+    }
+
+    /** The free vertex at the middle of the view; null where it shows none. */
+    vertexInTheMiddle(): number | null {
+        const { clientWidth, clientHeight } = this.viewer.canvas;
+        return this.sight(clientWidth / 2, clientHeight / 2).vertex;
+    }
+
+    /** The free neighbour of a vertex in a direction on the screen, y upwards. */
+    neighbour(vertex: number, x: number, y: number): number | null {
+        const direction = this.viewer.onScreen(x, y);
+        return (
+            this.picker?.neighbourTowards(vertex, direction, (v) => this.isFree(v, null)) ?? null
+        );
+    }
+
+    protected override surfaceAt(x: number, y: number): ViewHit | null {
+        const hit = this.picker?.hit(this.viewer.ray(x, y));
+        if (!hit || !this.target) return null;
+        if (!this.refined) return { ...hit, patch: -1 };
+        this.patches ??= new PatchFinder(this.refined, this.target.faceCount);
+        return { ...hit, patch: this.patches.at(hit.face, hit.point) };
+    }
+
+    protected override vertexAt(hit: ViewHit, dragged: number | null): number | null {
+        return this.picker?.nearestCorner(hit, (vertex) => this.isFree(vertex, dragged)) ?? null;
+    }
+
+    protected override faceGeometry(face: number): BufferGeometry | null {
+        return this.refined ? patchOverlay(this.refined, face) : null;
+    }
+
+    protected override side(): 0 | 2 {
+        // A mesh with a boundary is seen from both sides.
+        return (this.target?.boundaryLoopCount ?? 0) > 0 ? DoubleSide : FrontSide;
+    }
+
+    private isFree(vertex: number, except: number | null): boolean {
+        return this.landmarks?.places.every((v, id) => v !== vertex || id === except) ?? true;
+    }
+
+    private dotOn(id: number, vertex: number): Dot {
+        const { target, normals } = this;
+        const three = (from: ArrayLike<number>) =>
+            new Vector3().fromArray(from as number[], 3 * vertex).toArray();
+        const place = target ? three(target.positions) : [0, 0, 0];
+        return { id, place, normal: three(normals), hollow: false };
+    }
+}
