@@ -97,24 +97,6 @@ export async function untilSolvedAfter(page: Page, before: string | null): Promi
     await untilStatus(page, solved);
 }
 
-/** Where a landmark is in the target's view, found by its dot's colour under the pointer. */
-export async function placeOf(
-    page: Page,
-    view: string,
-    label: RegExp,
-): Promise<{ x: number; y: number }> {
-    const box = await page.locator(`${view} canvas`).boundingBox();
-    if (!box) throw new Error(`${view} is not shown`);
-    for (let y = 12; y < box.height; y += 12)
-        for (let x = 12; x < box.width; x += 12) {
-            await page.mouse.move(box.x + x, box.y + y);
-            await frames(page, 1);
-            const text = (await page.textContent("#target-hover")) ?? "";
-            if (label.test(text)) return { x: box.x + x, y: box.y + y };
-        }
-    throw new Error(`nothing in ${view} is called ${String(label)}`);
-}
-
 /** Lets the page draw. */
 export async function frames(page: Page, count = 2): Promise<void> {
     await page.evaluate(async (number) => {

@@ -41,6 +41,7 @@ function cards(
         image.loading = "lazy";
         image.width = 240;
         image.height = 180;
+        image.addEventListener("error", () => image.remove());
         button.append(image, create("strong", title), create("span", note, "soft"));
         button.addEventListener("click", () => choose(open));
         return button;
