@@ -284,7 +284,8 @@ function keysInTarget(store: Store<AppState>, actions: Actions, view: TargetView
         const step = event.shiftKey ? steps[event.key] : undefined;
         if (step && selected?.kind === "vertex") {
             const vertex = landmarks?.places[selected.id];
-            const next = vertex == null ? null : view.neighbour(vertex, ...step);
+            const next =
+                vertex === null || vertex === undefined ? null : view.neighbour(vertex, ...step);
             if (next !== null) editor.place(selected.id, next);
         } else if (event.key === "Enter" && placing !== null) {
             const vertex = view.vertexInTheMiddle();
@@ -302,7 +303,7 @@ function describe(item: Item, state: AppState): string {
         const vertex = landmarks?.places[item.id];
         return (
             `Landmark ${landmarkLabel(landmarks, item.id)}` +
-            (vertex == null ? ", missing" : ` on target vertex ${vertex}`)
+            (vertex === null || vertex === undefined ? ", missing" : ` on target vertex ${vertex}`)
         );
     }
     if (item.kind === "face") return `Patch ${item.id}`;

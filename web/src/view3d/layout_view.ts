@@ -45,7 +45,7 @@ export class LayoutView extends MeshView {
             id,
             place: three(layout!.positions, id),
             normal: three(normals, id),
-            hollow: landmarks?.places[id] == null,
+            hollow: (landmarks?.places[id] ?? null) === null,
         }));
         this.dots.setDots(this.shownDots, this.viewer.radius, count);
         this.viewer.requestRender();
@@ -56,9 +56,10 @@ export class LayoutView extends MeshView {
         const caster = new Raycaster();
         caster.ray.copy(this.viewer.ray(x, y));
         const [hit] = caster.intersectObject(this.mesh, false);
-        if (hit?.faceIndex == null) return null;
-        const patch = this.faceOfTriangle[hit.faceIndex] ?? -1;
-        return { face: hit.faceIndex, point: hit.point, distance: hit.distance, patch };
+        const face = hit?.faceIndex ?? null;
+        if (!hit || face === null) return null;
+        const patch = this.faceOfTriangle[face] ?? -1;
+        return { face, point: hit.point, distance: hit.distance, patch };
     }
 
     protected override vertexAt(): null {

@@ -172,12 +172,12 @@ export abstract class MeshView {
             { capture: true },
         );
         canvas.addEventListener("pointermove", (event) => {
-            if (event.buttons !== 0 && this.pressed?.dot == null) return;
+            if (event.buttons !== 0 && (this.pressed?.dot ?? null) === null) return;
             if (this.hoverFrame !== 0) return;
             const { offsetX, offsetY } = event;
             this.hoverFrame = requestAnimationFrame(() => {
                 this.hoverFrame = 0;
-                if (this.pressed?.dot != null) this.dragTo(offsetX, offsetY);
+                if ((this.pressed?.dot ?? null) !== null) this.dragTo(offsetX, offsetY);
                 else listener.hover(this.sight(offsetX, offsetY));
             });
         });
@@ -195,7 +195,7 @@ export abstract class MeshView {
 
     private dragTo(x: number, y: number): void {
         const { pressed } = this;
-        if (pressed?.dot == null) return;
+        if (!pressed || pressed.dot === null) return;
         if (!this.dragging && Math.hypot(x - pressed.x, y - pressed.y) <= clickReach) return;
         this.dragging = true;
         const { vertex } = this.sight(x, y, pressed.dot);

@@ -42,8 +42,8 @@ export function pick(
     let best: Item | null = null;
     let bestDepth = surface + slack;
     for (const dot of dots) {
-        point.set(dot.place[0]!, dot.place[1]!, dot.place[2]!);
-        normal.set(dot.normal[0]!, dot.normal[1]!, dot.normal[2]!);
+        point.set(dot.place[0]!, dot.place[1]!, dot.place[2]);
+        normal.set(dot.normal[0]!, dot.normal[1]!, dot.normal[2]);
         const sight = camera.position.clone().sub(point).normalize();
         if (normal.dot(sight) < horizon) continue;
         project();
@@ -56,7 +56,7 @@ export function pick(
     for (let p = 0; p + 1 < paths.offsets.length; ++p) {
         let from: { x: number; y: number } | null = null;
         for (let i = paths.offsets[p]!; i < paths.offsets[p + 1]!; ++i) {
-            point.set(paths.points[3 * i]!, paths.points[3 * i + 1]!, paths.points[3 * i + 2]!);
+            point.set(paths.points[3 * i]!, paths.points[3 * i + 1]!, paths.points[3 * i + 2]);
             project();
             const to = { x: screen.x, y: screen.y };
             if (

@@ -21,8 +21,9 @@ export class SurfacePicker {
     hit(ray: Ray): SurfaceHit | null {
         this.tree ??= this.build();
         const found = this.tree.raycastFirst(ray, DoubleSide);
-        if (found?.faceIndex == null) return null;
-        return { face: found.faceIndex, point: found.point, distance: found.distance };
+        const face = found?.faceIndex ?? null;
+        if (!found || face === null) return null;
+        return { face, point: found.point, distance: found.distance };
     }
 
     /** The corner of a face nearest to a point that `allowed` lets pass; null if none does. */

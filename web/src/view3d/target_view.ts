@@ -130,7 +130,7 @@ export class TargetView extends MeshView {
     private dotOn(id: number, vertex: number): Dot {
         const { target, normals } = this;
         const three = (from: ArrayLike<number>) =>
-            new Vector3().fromArray(from as number[], 3 * vertex).toArray();
+            new Vector3().fromArray(from, 3 * vertex).toArray();
         const place = target ? three(target.positions) : [0, 0, 0];
         return { id, place, normal: three(normals), hollow: false };
     }

@@ -80,7 +80,7 @@ export class PathTubes {
         mesh.onBeforeRender = (renderer, _scene, camera) => {
             const size = renderer.getSize(new Vector2());
             // Half the height of the view, in lengths at distance 1, over half its height in pixels.
-            look.width.value = look.radius / (camera.projectionMatrix.elements[5]! * (size.y / 2));
+            look.width.value = look.radius / (camera.projectionMatrix.elements[5] * (size.y / 2));
         };
         this.group.add(mesh);
     }
@@ -132,7 +132,7 @@ function tubes(paths: Polylines, chosen: (layoutEdge: number) => boolean): Buffe
     const normal = new Float32Array(3 * sides * ringCount);
     const index = new Uint32Array(6 * sides * (ringCount - lines.length));
     const at = (i: number, into: Vector3) =>
-        into.set(paths.points[3 * i]!, paths.points[3 * i + 1]!, paths.points[3 * i + 2]!);
+        into.set(paths.points[3 * i]!, paths.points[3 * i + 1]!, paths.points[3 * i + 2]);
     const [before, here, after] = [new Vector3(), new Vector3(), new Vector3()];
     const [tangent, u, v, out] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
     let vertex = 0;
