@@ -6,107 +6,241 @@
 
 namespace layout_embedding {
 
-ClassEnumeration::ClassEnumeration(const Strands& strands, DistanceFields& fields,
-                                   const CutSystem& cuts, Index layout_edge)
-    : strands_(strands),
-      fields_(fields),
-      cuts_(cuts),
-      start_vertex_(strands.layout().tail(2 * layout_edge)),
-      goal_vertex_(strands.layout().head(2 * layout_edge)),
-      start_(strands.landmark_node(start_vertex_)),
-      goal_(strands.landmark_node(goal_vertex_))
+namespace {
+
+// Marks the goal's labels in the queue, so that they leave it last among equals: only then have all
+// walks of the same length been seen.
+constexpr Index kIsGoal = Index{1} << 31U;
+
+}  // namespace
+
+ClassEnumeration::ClassEnumeration(const Strands& strands, DistanceFields& fields)
+    : strands_(strands), fields_(fields), is_met_(strands.layout().edge_count(), false)
+{}
+
+void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length limit)
 {
+    const Layout& layout = strands_.layout();
+    const PathGraph& graph = strands_.graph();
+    cuts_ = &cuts;
+    layout_edge_ = layout_edge;
+    limit_ = limit;
+    start_vertex_ = layout.tail(2 * layout_edge);
+    goal_vertex_ = layout.head(2 * layout_edge);
+    start_ = strands_.landmark_node(start_vertex_);
+    goal_ = strands_.landmark_node(goal_vertex_);
+    goal_sector_ = strands_.sector(2 * layout_edge + 1);
     field_ = &fields_.get(goal_, start_);
-    states_.push_back({start_, Words::kEmpty, 0, kNone, kNone, false, false});
-    queue_.push({field_->bound(start_), 0});
+    words_ = {};
+    mark_ = 0;
+    labels_.clear();
+    for (const Index state : used_states_) {
+        first_labels_[state] = kNone;
+    }
+    used_states_.clear();
+    first_labels_.resize(std::max<std::size_t>(first_labels_.size(), strands_.state_bound()),
+                         kNone);
+    classes_.clear();
+    queue_.clear();
+    for (const Index edge : met_) {
+        is_met_[edge] = false;
+    }
+    met_.clear();
+    const Index sector = strands_.sector(2 * layout_edge);
+    for (Index d = graph.first_dart(start_); d < graph.first_dart(start_ + 1); ++d) {
+        const Index strands = strands_.strand_count(start_, d);
+        for (Index slot = 0; slot <= strands; ++slot) {
+            if (strands_.region(start_, d, slot) == sector) {
+                relax(kNone, d, slot, strands);
+            }
+        }
+    }
 }
 
 Length ClassEnumeration::frontier() const
 {
-    return queue_.empty() ? kInfiniteLength : queue_.top().estimate;
+    return queue_.empty() ? limit_ : std::min(limit_, queue_.top().estimate);
 }
 
-ClassEnumeration::Outcome ClassEnumeration::run(Length limit, std::uint64_t max_expansions)
+ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions)
 {
     const PathGraph& graph = strands_.graph();
-    // Others may have used the fields meanwhile.
-    field_ = &fields_.get(goal_, start_);
     while (!queue_.empty()) {
-        const QueueItem item = queue_.top();
-        if (states_[item.state].is_closed) {
+        const Index current = queue_.top().label & ~kIsGoal;
+        if (labels_[current].is_closed) {
             queue_.pop();
             continue;
-        }
-        if (item.estimate >= limit) {
-            return Outcome::exceeded;
         }
         if (max_expansions-- == 0) {
             return Outcome::running;
         }
         queue_.pop();
-        states_[item.state].is_closed = true;
-        const Index node = states_[item.state].node;
+        ++expansion_count_;
+        labels_[current].is_closed = true;
+        const Label label = labels_[current];
+        const Index node = strands_.node_of_state(label.state);
         if (node == goal_) {
-            if (classes_.insert(goal_class(states_[item.state].word)).second) {
-                cost_ = states_[item.state].distance;
-                return collect_walk(item.state) ? Outcome::tied : Outcome::found;
+            if (classes_.insert(goal_class(label.word)).second) {
+                cost_ = label.distance;
+                const bool tied = collect_walk(current);
+                if (!walk_crosses_itself(graph, darts_)) {
+                    return tied ? Outcome::tied : Outcome::found;
+                }
             }
             continue;
         }
-        for (Index d = graph.first_dart(node); d < graph.first_dart(node + 1); ++d) {
-            relax(item.state, d);
+        if (crosses_itself(current)) {
+            continue;
+        }
+        const Index end = graph.first_dart(node + 1);
+        if (!strands_.is_touched(node)) {
+            for (Index d = graph.first_dart(node); d < end; ++d) {
+                relax(current, d, 0, 0);
+            }
+            continue;
+        }
+        bordering_.clear();
+        strands_.append_bordering(label.state, bordering_);
+        for (const Index edge : bordering_) {
+            if (!is_met_[edge]) {
+                is_met_[edge] = true;
+                met_.push_back(edge);
+            }
+        }
+        const Index region = strands_.region_of_state(label.state);
+        for (Index d = graph.first_dart(node); d < end; ++d) {
+            const Index slot = strands_.slot_in_region(node, d, region);
+            if (slot != kNone) {
+                relax(current, d, slot, strands_.strand_count(node, d));
+            }
         }
     }
     return Outcome::exceeded;
 }
 
-void ClassEnumeration::relax(Index from_state, Index dart)
+void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index strand_count)
 {
-    const PathGraph& graph = strands_.graph();
-    const Index head = graph.head(dart);
-    if (head != goal_ && !strands_.passable()[head]) {
+    const Dart& along = strands_.graph().dart(dart);
+    if (along.head != goal_ && !strands_.passable()[along.head]) {
         return;
     }
-    const Index word = cuts_.advance(words_, states_[from_state].word, dart, start_vertex_);
-    const Length reached = states_[from_state].distance + graph.dart(dart).length;
-    const auto [place, is_new] = states_by_key_.try_emplace(std::uint64_t{head} << 32U | word,
-                                                            static_cast<Index>(states_.size()));
-    if (is_new) {
-        states_.push_back({head, word, reached, from_state, dart, false, false});
+    const Length before = from_label == kNone ? 0 : labels_[from_label].distance;
+    const Length reached = before + along.length;
+    const Length estimate = reached + field_->bound(along.head);
+    if (estimate >= limit_) {
+        return;
+    }
+    const Index region = strands_.is_touched(along.head)
+                             ? strands_.region(along.head, along.twin, strand_count - slot)
+                             : 0;
+    if (along.head == goal_ && region != goal_sector_) {
+        return;
+    }
+    const Index word =
+        cuts_->advance(words_, from_label == kNone ? Words::kEmpty : labels_[from_label].word, dart,
+                       start_vertex_);
+    const Index state = strands_.state(along.head, region);
+    Index& first = first_labels_[state];
+    Index found = first;
+    while (found != kNone && labels_[found].word != word) {
+        found = labels_[found].next;
+    }
+    if (found == kNone) {
+        if (first == kNone) {
+            used_states_.push_back(state);
+        }
+        found = static_cast<Index>(labels_.size());
+        labels_.push_back({state, word, reached, from_label, dart, first, found, 0, false, false});
+        first = found;
     } else {
-        State& state = states_[place->second];
-        if (reached >= state.distance) {
-            state.is_tied = state.is_tied || reached == state.distance;
+        Label& label = labels_[found];
+        if (reached >= label.distance) {
+            label.is_tied = label.is_tied || reached == label.distance;
             return;
         }
-        state.distance = reached;
-        state.parent = from_state;
-        state.parent_dart = dart;
-        state.is_tied = false;
-        // A field that was extended in between is not consistent with what it was.
-        state.is_closed = false;
+        label.distance = reached;
+        label.parent = from_label;
+        label.parent_dart = dart;
+        label.is_tied = false;
     }
-    queue_.push({reached + field_->bound(head), place->second});
+    const bool goes_on = from_label != kNone && labels_[from_label].word == word;
+    labels_[found].entry = goes_on ? labels_[from_label].entry : found;
+    queue_.push({estimate, along.head == goal_ ? found | kIsGoal : found});
+}
+
+/// Whether a stretch that the walk to a label shares with itself ends right before it and crosses.
+/// Beginnings of shortest walks of simple classes never have one (proof.md, Sec. 3).
+bool ClassEnumeration::crosses_itself(Index label)
+{
+    const Index parent = labels_[label].parent;
+    if (parent == kNone) {
+        return false;
+    }
+    const Index state = labels_[parent].state;
+    if (labels_[first_labels_[state]].next == kNone) {
+        return false;  // nobody else has been there
+    }
+    // Of those who have, the walk itself can only be one with a word that it has had.
+    ++mark_;
+    for (Index l = parent; l != kNone; l = labels_[labels_[l].entry].parent) {
+        labels_[labels_[l].entry].mark = mark_;
+    }
+    bool may_return = false;
+    for (Index l = first_labels_[state]; l != kNone && !may_return; l = labels_[l].next) {
+        may_return = labels_[l].distance < labels_[parent].distance &&
+                     labels_[labels_[l].entry].mark == mark_;
+    }
+    if (!may_return) {
+        return false;
+    }
+    const PathGraph& graph = strands_.graph();
+    reversed_.clear();
+    bool returns = false;
+    for (Index l = label; l != kNone; l = labels_[l].parent) {
+        reversed_.push_back(graph.twin(labels_[l].parent_dart));
+        returns = returns || (labels_[l].state == state && l != parent);
+    }
+    if (!returns) {
+        return false;
+    }
+    const Index node = strands_.node_of_state(state);
+    for (Index k = 1; k + 1 < reversed_.size(); ++k) {
+        if (graph.head(reversed_[k]) == node &&
+            stretch_crosses(graph, reversed_, 0, reversed_, k)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// The word that stands for all that differ by turns around the goal.
 Index ClassEnumeration::goal_class(Index word)
 {
-    const Words::Letter own = CutSystem::letter(goal_vertex_);
-    while (words_.last(word) == own || words_.last(word) == -own) {
+    const Words::Letter own = cuts_->letter(goal_vertex_);
+    while (word != Words::kEmpty && (words_.last(word) == own || words_.last(word) == -own)) {
         word = words_.prefix(word);
     }
     return word;
 }
 
+std::vector<Index> ClassEnumeration::blockers() const
+{
+    std::vector<Index> blockers = met_;
+    strands_.append_sector_neighbours(2 * layout_edge_, blockers);
+    strands_.append_sector_neighbours(2 * layout_edge_ + 1, blockers);
+    std::sort(blockers.begin(), blockers.end());
+    blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
+    return blockers;
+}
+
 /// Whether a tie lies on the way.
-bool ClassEnumeration::collect_walk(Index state)
+bool ClassEnumeration::collect_walk(Index label)
 {
     darts_.clear();
     bool tied = false;
-    for (; states_[state].parent != kNone; state = states_[state].parent) {
-        tied = tied || states_[state].is_tied;
-        darts_.push_back(states_[state].parent_dart);
+    for (; label != kNone; label = labels_[label].parent) {
+        tied = tied || labels_[label].is_tied;
+        darts_.push_back(labels_[label].parent_dart);
     }
     std::reverse(darts_.begin(), darts_.end());
     return tied;

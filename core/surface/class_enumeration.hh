@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -13,78 +12,99 @@
 
 namespace layout_embedding {
 
-/// The homotopy classes of arcs for one layout edge, on the target punctured at all landmarks, by
-/// the length of their shortest walks (design, Sec. 3): best-first search in the universal cover,
-/// whose states are a node and the word of cuts crossed on the way. Stepped, and resumed for as
-/// many classes as are needed.
+/// The homotopy classes of arcs for one layout edge, on the target punctured at all landmarks and
+/// cut open along the embedded strands, by the length of their shortest walks (design, Sec. 3):
+/// best-first search in the universal cover, whose states are a state of the cut surface and the
+/// word of cuts crossed on the way. Stepped.
 ///
-/// Arcs may turn freely about their own ends. Classes that are not simple come up too; see
-/// walk_crosses_itself().
+/// Arcs may turn freely about their own ends. All simple classes come up; of the others, those
+/// whose walks cross themselves before they reach the goal do not.
 class ClassEnumeration {
 public:
     enum class Outcome {
         running,
-        /// darts() and cost() are the shortest walk of the next class.
+        /// darts() and cost() are the shortest walk of the next simple class.
         found,
-        /// All classes shorter than the limit have come up.
+        /// All simple classes shorter than the limit have come up.
         exceeded,
         /// Two walks of equal length in one class: draw other perturbations.
         tied,
     };
 
-    /// Keeps references. Neither end of the edge is the root of `cuts`. What is embedded in
-    /// `strands` does not matter.
-    ClassEnumeration(const Strands& strands, DistanceFields& fields, const CutSystem& cuts,
-                     Index layout_edge);
+    /// Keeps references.
+    ClassEnumeration(const Strands& strands, DistanceFields& fields);
 
-    /// Continues for at most `max_expansions` expansions, up to the next class of a cost below
-    /// `limit`, which may be higher in a later call.
-    Outcome run(Length limit, std::uint64_t max_expansions = UINT64_MAX);
+    /// Starts to enumerate for an edge that is not embedded. Neither end of it is the root of
+    /// `cuts`, which has to live as long as the enumeration. The strands must not change meanwhile.
+    void begin(const CutSystem& cuts, Index layout_edge, Length limit = kInfiniteLength);
+
+    /// Continues for at most `max_expansions` expansions, up to the next class.
+    Outcome run(std::uint64_t max_expansions = UINT64_MAX);
 
     /// The walk from tail(2e) to head(2e), after `found`.
     const std::vector<Index>& darts() const { return darts_; }
     Length cost() const { return cost_; }
-    /// Every class that has not come up is at least this long.
+    /// Every simple class that has not come up is at least this long, or the limit.
     Length frontier() const;
+    /// Embedded edges whose strands alone keep classes that have not come up from being shorter
+    /// than frontier(). Sorted.
+    std::vector<Index> blockers() const;
+    /// States expanded by all enumerations of this object.
+    std::uint64_t expansion_count() const { return expansion_count_; }
 
 private:
-    struct State {
-        Index node;
+    /// What is known of a state of the cut surface with a word.
+    struct Label {
+        Index state;
         Index word;
         Length distance;
-        Index parent;  // state, kNone at the start
+        Index parent;  // label, kNone at the start
         Index parent_dart;
+        Index next;   // label of the same state with another word
+        Index entry;  // the first label on the way whose word and all later ones are this one's
+        Index mark;
         bool is_closed;
         bool is_tied;
     };
     struct QueueItem {
         Length estimate;
-        Index state;
+        Index label;
         friend bool operator<(const QueueItem& a, const QueueItem& b)
         {
-            return a.estimate != b.estimate ? a.estimate < b.estimate : a.state < b.state;
+            return a.estimate != b.estimate ? a.estimate < b.estimate : a.label < b.label;
         }
     };
 
-    void relax(Index from_state, Index dart);
+    void relax(Index from_label, Index dart, Index slot, Index strand_count);
+    bool crosses_itself(Index label);
     Index goal_class(Index word);
-    bool collect_walk(Index state);
+    bool collect_walk(Index label);
 
     const Strands& strands_;
     DistanceFields& fields_;
-    const CutSystem& cuts_;
-    Index start_vertex_;  // layout vertices
-    Index goal_vertex_;
-    Index start_;  // nodes
-    Index goal_;
+    const CutSystem* cuts_ = nullptr;
+    Index layout_edge_ = kNone;
+    Index start_vertex_ = kNone;  // layout vertices
+    Index goal_vertex_ = kNone;
+    Index start_ = kNone;  // nodes
+    Index goal_ = kNone;
+    Index goal_sector_ = 0;
+    Length limit_ = kInfiniteLength;
     const DistanceField* field_ = nullptr;
     Words words_;
-    std::vector<State> states_;
-    std::unordered_map<std::uint64_t, Index> states_by_key_;  // looked up, never iterated
-    std::unordered_set<Index> classes_;                       // words; likewise
+    std::vector<Label> labels_;
+    std::vector<Index> first_labels_;    // per state of the cut surface
+    std::vector<Index> used_states_;     // those with a label
+    std::unordered_set<Index> classes_;  // words; looked up, never iterated
     QuadHeap<QueueItem> queue_;
     std::vector<Index> darts_;
+    std::vector<Index> reversed_;
+    Index mark_ = 0;
+    std::vector<Index> met_;  // embedded edges
+    std::vector<bool> is_met_;
+    std::vector<Index> bordering_;
     Length cost_ = 0;
+    std::uint64_t expansion_count_ = 0;
 };
 
 /// Whether two passes of a walk cross: a stretch that both share, perhaps one node, is entered and

@@ -34,44 +34,48 @@ private:
     std::unordered_map<std::uint64_t, Index> longer_;  // looked up, never iterated
 };
 
-/// Cuts that tell the homotopy classes of walks apart on a closed target of genus 0 that is
-/// punctured at all landmarks (design, Sec. 3; proof.md, Sec. 4).
+/// Cuts that tell the homotopy classes of walks apart on a target of any genus that is punctured at
+/// all landmarks (design, Sec. 3; proof.md, Sec. 4).
 ///
-/// From every landmark but one, the root, an arc leads to the root. The arcs don't meet: each runs
-/// on the left of a path of the shortest-path tree of the root, close to it, and where paths share
-/// an edge their arcs lie side by side. They leave a disk of the surface, so that walks between the
-/// same landmarks are homotopic exactly if they cross the arcs in the same reduced sequence, up to
-/// turns around their own ends; the letter of an end is a generator itself as long as it is not the
-/// root.
+/// Punctures are the landmarks inside the target and its holes; one of them is the root. From every
+/// other puncture an arc leads to the root, and 2 g arcs lead from the root to itself, where g is
+/// the genus. Arcs don't meet: each runs on the left of a path of the root's shortest-path tree
+/// (those back to the root: of two of them, which they change at an edge outside the tree), close
+/// to it, and where paths share an edge their arcs lie side by side. They leave a disk of the
+/// surface, so that walks between the same landmarks are homotopic exactly if they cross the arcs
+/// in the same reduced sequence, up to turns around those of their own ends that are punctures; the
+/// letter of such an end is a generator itself as long as it is not the root.
 class CutSystem {
 public:
-    /// `landmark_nodes`: one per layout vertex; `root` is a layout vertex. A shortest-path search
-    /// over the whole graph.
+    /// `landmark_nodes`: one per layout vertex. `root` is a layout vertex whose landmark lies
+    /// inside the target, or kNone for the first of the target's holes. O(#nodes log #nodes).
     CutSystem(const PathGraph& graph, std::span<const Index> landmark_nodes, Index root);
 
-    /// The letter of crossing the arc of a layout vertex, other than the root, from its right to
-    /// its left (seen from the landmark to the root).
-    static Words::Letter letter(Index layout_vertex)
-    {
-        return static_cast<Words::Letter>(layout_vertex) + 1;
-    }
+    /// The letter of crossing a landmark's arc from its right to its left (seen from the landmark
+    /// to the root); 0, which is no letter, where the landmark lies on the boundary.
+    Words::Letter letter(Index layout_vertex) const { return letters_[layout_vertex]; }
     /// The word of a walk that goes on along a dart. Words only count up to turns around the layout
-    /// vertex `start`, where the walk began and which is not the root: powers of its letter at their
-    /// beginning are left away.
+    /// vertex `start`, where the walk began and which is not the root: powers of its letter at
+    /// their beginning are left away.
     Index advance(Words& words, Index word, Index dart, Index start) const;
 
 private:
     /// A node that arcs pass, to its left as they see it.
     struct Passed {
-        /// Layout vertices whose arcs pass, the nearest to the node first.
-        std::vector<Index> arcs;
+        /// The letters of crossing the arcs from right to left, the nearest to the node first.
+        std::vector<Words::Letter> arcs;
         /// Per dart of the node: how many of them it crosses.
         std::vector<Index> crossed;
     };
-    std::span<const Index> crossed(Index node, Index dart) const;
+    std::span<const Words::Letter> crossed(Index node, Index dart) const;
 
     const PathGraph& graph_;
+    std::vector<Words::Letter> letters_;        // per layout vertex
+    std::vector<bool> is_passed_;               // per node
     std::unordered_map<Index, Passed> passed_;  // by node; looked up, never iterated
+    /// Edges that arcs from the root back to it cross at their middle: by dart, the letter of going
+    /// along it. Looked up, never iterated.
+    std::unordered_map<Index, Words::Letter> changes_;
 };
 
 }  // namespace layout_embedding

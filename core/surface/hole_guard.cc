@@ -45,10 +45,10 @@ HoleGuard::HoleGuard(const Strands& strands) : strands_(strands)
     }
 }
 
-bool HoleGuard::accepts() const
+std::vector<Index> HoleGuard::edges_around_misplaced_hole() const
 {
     if (holes_.empty()) {
-        return true;
+        return {};
     }
     const Layout& layout = strands_.layout();
     std::vector<Index> parents(layout.face_count() + layout_loop_count_);
@@ -79,10 +79,18 @@ bool HoleGuard::accepts() const
             face = faces_[h];
         }
         if (room[find(face)]-- == 0) {
-            return false;
+            std::vector<Index> edges;
+            for (Index h = 0; h < faces_.size(); ++h) {
+                const Index e = Layout::edge(h);
+                if (strands_.is_embedded(e) && find(faces_[h]) == find(face) &&
+                    (edges.empty() || edges.back() != e)) {
+                    edges.push_back(e);
+                }
+            }
+            return edges;
         }
     }
-    return true;
+    return {};
 }
 
 Index HoleGuard::bordering_halfedge(Index boundary_node) const

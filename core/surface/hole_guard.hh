@@ -21,7 +21,11 @@ public:
 
     /// Whether the present strands leave every hole where the layout wants one. O(#states) at worst
     /// per hole that holds no landmark; nothing to do on closed targets.
-    bool accepts() const;
+    bool accepts() const { return edges_around_misplaced_hole().empty(); }
+    /// Embedded edges around a face, or faces not yet parted, that holds more holes than it should;
+    /// none where accepts(). In a complete embedding, their homotopy classes alone put the holes
+    /// there (proof.md, Sec. 8). Ascending.
+    std::vector<Index> edges_around_misplaced_hole() const;
 
 private:
     /// A layout halfedge whose left side borders the component of the cut surface with the hole at

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "surface/stretch.hh"
+
 namespace layout_embedding {
 
 Strands::Strands(const EmbeddingProblem& problem, const PathGraph& graph)
@@ -174,12 +176,6 @@ std::optional<Strands::Trace> Strands::trace_from(Index layout_edge, std::span<c
             return std::nullopt;
         }
     }
-    // A state met twice means a slot used twice or a walk that touches itself; neither is shortest.
-    std::vector<Index> sorted = trace.states;
-    std::sort(sorted.begin(), sorted.end());
-    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-        return std::nullopt;
-    }
     return trace;
 }
 
@@ -265,6 +261,37 @@ void Strands::update_regions(Record& record)
     record.region_count = regions;
 }
 
+/// Whether of two passes of a walk over the same edge of the path graph the first lies to the right
+/// of the second, both seen along the direction in which `a` is turned: the walk's i-th dart, or
+/// its twin if `turned_i`, and likewise j. They lie as they diverge, ahead or, where the walk ends
+/// before that, behind.
+bool Strands::lies_right(std::span<const Index> darts, Index i, bool turned_i, Index j,
+                         bool turned_j) const
+{
+    const auto count = static_cast<Index>(darts.size());
+    for (const bool behind : {false, true}) {
+        // Seen from the other end of the edge, right is left.
+        const bool back_i = turned_i != behind;
+        const bool back_j = turned_j != behind;
+        for (Index step = 1;; ++step) {
+            if ((back_i ? i < step : i + step >= count) ||
+                (back_j ? j < step : j + step >= count)) {
+                break;
+            }
+            const auto at = [&](Index place, bool back, Index k) {
+                return back ? graph_->twin(darts[place - k]) : darts[place + k];
+            };
+            const Index on_i = at(i, back_i, step);
+            const Index on_j = at(j, back_j, step);
+            if (on_i != on_j) {
+                const Index back = graph_->twin(at(i, back_i, step - 1));
+                return is_before(back, on_i, on_j) != behind;
+            }
+        }
+    }
+    return i < j;
+}
+
 bool Strands::insert(Index layout_edge, std::vector<Index> darts)
 {
     const auto trace = this->trace(layout_edge, darts);
@@ -286,10 +313,15 @@ bool Strands::insert(Index layout_edge, std::vector<Index> darts)
         passes[i] = dart < twin ? Pass{dart, slot, i}
                                 : Pass{twin, strand_count(graph_->head(twin), dart) - slot, i};
     }
-    std::sort(passes.begin(), passes.end(), [](const Pass& a, const Pass& b) {
-        return a.dart != b.dart   ? a.dart < b.dart
-               : a.slot != b.slot ? a.slot < b.slot
-                                  : a.place < b.place;
+    std::sort(passes.begin(), passes.end(), [&](const Pass& a, const Pass& b) {
+        if (a.dart != b.dart) {
+            return a.dart < b.dart;
+        }
+        if (a.slot != b.slot || a.place == b.place) {
+            return a.slot < b.slot;
+        }
+        return lies_right(darts, a.place, darts[a.place] != a.dart, b.place,
+                          darts[b.place] != b.dart);
     });
     std::vector<Index> counts(passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k) {

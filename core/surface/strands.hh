@@ -94,8 +94,7 @@ public:
         std::vector<Index> states;
     };
     /// Follows a walk between the landmarks of a layout edge through the cut surface, within the
-    /// edge's sectors; nothing if a strand is in the way. A walk that uses a slot twice has no
-    /// trace.
+    /// edge's sectors; nothing if a strand is in the way. It may use a slot twice.
     std::optional<Trace> trace(Index layout_edge, std::span<const Index> darts) const;
 
     /// Embeds a layout edge along a walk that traces; false, without any change, if it does not.
@@ -140,6 +139,8 @@ private:
     Record& touch(Index node);
     void insert_end(Index node, Index dart, Index lane, Index layout_edge, Index visit);
     void update_regions(Record& record);
+    bool lies_right(std::span<const Index> darts, Index i, bool turned_i, Index j,
+                    bool turned_j) const;
     std::optional<Trace> trace_from(Index layout_edge, std::span<const Index> darts,
                                     Index first_slot) const;
 
