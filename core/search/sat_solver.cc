@@ -1,0 +1,468 @@
+#include "search/sat_solver.hh"
+
+#include <algorithm>
+
+namespace layout_embedding {
+
+namespace {
+
+constexpr Index kNoReason = kNone;
+constexpr double kActivityDecay = 0.95;
+constexpr double kMaxActivity = 1e100;
+constexpr std::uint64_t kRestartUnit = 64;
+constexpr Index kGoodDistance = 3;  // learned clauses of few blocks are kept
+// Propagations per unit of work: an expanded node of a path search takes about as long.
+constexpr std::uint64_t kPropagationsPerWork = 4;
+
+/// 1 1 2 1 1 2 4 ...: how long the i-th run between restarts is (Luby, Sinclair, Zuckerman 1993).
+std::uint64_t luby(std::uint64_t i)
+{
+    std::uint64_t size = 1;
+    std::uint64_t exponent = 0;
+    while (size < i + 1) {
+        size = 2 * size + 1;
+        ++exponent;
+    }
+    while (size - 1 != i) {
+        size = (size - 1) / 2;
+        --exponent;
+        i %= size;
+    }
+    return std::uint64_t{1} << exponent;
+}
+
+}  // namespace
+
+SatSolver::Literal SatSolver::add_variable(bool preferred)
+{
+    const Index variable = variable_count();
+    const Value phase = preferred ? 0 : 1;
+    assigns_.push_back(kUnassigned);
+    phases_.push_back(phase);
+    preferred_.push_back(phase);
+    levels_.push_back(0);
+    reasons_.push_back(kNoReason);
+    activities_.push_back(0);
+    heap_places_.push_back(kNone);
+    seen_.push_back(0);
+    model_.push_back(phase);
+    watches_.resize(watches_.size() + 2);
+    heap_places_[variable] = static_cast<Index>(heap_.size());
+    heap_.push_back(variable);
+    sift_up(heap_places_[variable]);
+    return 2 * variable;
+}
+
+SatSolver::Clause SatSolver::store(std::span<const Literal> literals, Index block_distance)
+{
+    const auto clause = static_cast<Clause>(arena_.size());
+    arena_.push_back(static_cast<Index>(literals.size()));
+    arena_.push_back(block_distance);
+    arena_.insert(arena_.end(), literals.begin(), literals.end());
+    watches_[literals[0]].push_back({clause, literals[1]});
+    watches_[literals[1]].push_back({clause, literals[0]});
+    if (block_distance > 0) {
+        learned_.push_back(clause);
+    }
+    return clause;
+}
+
+void SatSolver::add_clause(std::span<const Literal> literals)
+{
+    if (contradictory_) {
+        return;
+    }
+    go_back(0);
+    clause_.assign(literals.begin(), literals.end());
+    std::sort(clause_.begin(), clause_.end());
+    std::size_t kept = 0;
+    Literal previous = kNone;
+    for (const Literal l : clause_) {
+        if (is_true(l) || (previous != kNone && l == negate(previous))) {
+            return;
+        }
+        if (!is_false(l) && l != previous) {
+            clause_[kept++] = l;
+            previous = l;
+        }
+    }
+    clause_.resize(kept);
+    if (clause_.empty()) {
+        contradictory_ = true;
+    } else if (clause_.size() == 1) {
+        assign(clause_[0], kNoReason);
+        contradictory_ = propagate() != kNone;
+    } else {
+        store(clause_, 0);
+    }
+}
+
+void SatSolver::assign(Literal l, Clause reason)
+{
+    const Index variable = l / 2;
+    assigns_[variable] = static_cast<Value>(l & 1U);
+    levels_[variable] = level();
+    reasons_[variable] = reason;
+    trail_.push_back(l);
+}
+
+/// Draws all conclusions; the clause that is violated, kNone if none is.
+SatSolver::Clause SatSolver::propagate()
+{
+    while (propagated_ < trail_.size()) {
+        const Literal falsified = negate(trail_[propagated_++]);
+        ++uncharged_;
+        auto& watches = watches_[falsified];
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < watches.size(); ++i) {
+            const Watch watch = watches[i];
+            if (is_true(watch.blocker)) {
+                watches[kept++] = watch;
+                continue;
+            }
+            Literal* of_clause = literals(watch.clause);
+            if (of_clause[0] == falsified) {
+                std::swap(of_clause[0], of_clause[1]);
+            }
+            const Literal first = of_clause[0];
+            if (first != watch.blocker && is_true(first)) {
+                watches[kept++] = {watch.clause, first};
+                continue;
+            }
+            const Index count = size(watch.clause);
+            Index k = 2;
+            while (k < count && is_false(of_clause[k])) {
+                ++k;
+            }
+            if (k < count) {
+                std::swap(of_clause[1], of_clause[k]);
+                watches_[of_clause[1]].push_back({watch.clause, first});
+                continue;
+            }
+            watches[kept++] = {watch.clause, first};
+            if (is_false(first)) {
+                while (++i < watches.size()) {
+                    watches[kept++] = watches[i];
+                }
+                watches.resize(kept);
+                propagated_ = trail_.size();
+                return watch.clause;
+            }
+            assign(first, watch.clause);
+        }
+        watches.resize(kept);
+    }
+    return kNone;
+}
+
+void SatSolver::go_back(Index to)
+{
+    if (level() <= to) {
+        return;
+    }
+    const Index start = level_starts_[to];
+    for (std::size_t i = trail_.size(); i-- > start;) {
+        const Index variable = trail_[i] / 2;
+        phases_[variable] = assigns_[variable];
+        assigns_[variable] = kUnassigned;
+        if (heap_places_[variable] == kNone) {
+            heap_places_[variable] = static_cast<Index>(heap_.size());
+            heap_.push_back(variable);
+            sift_up(heap_places_[variable]);
+        }
+    }
+    trail_.resize(start);
+    level_starts_.resize(to);
+    propagated_ = start;
+}
+
+/// Whether a literal of the clause being learned follows from the others.
+bool SatSolver::is_implied(Literal l)
+{
+    const Clause reason = reasons_[l / 2];
+    if (reason == kNoReason) {
+        return false;
+    }
+    const Literal* of_reason = literals(reason);
+    return std::all_of(of_reason, of_reason + size(reason), [&](Literal other) {
+        return other / 2 == l / 2 || seen_[other / 2] != 0 || levels_[other / 2] == 0;
+    });
+}
+
+/// Puts the first unique implication point of a conflict into clause_; the level to go back to.
+Index SatSolver::learn(Clause conflict)
+{
+    clause_.assign(1, kNone);
+    marked_.clear();
+    Index open = 0;
+    std::size_t place = trail_.size();
+    Literal current = kNone;
+    do {
+        const Literal* of_clause = literals(conflict);
+        for (Index k = 0; k < size(conflict); ++k) {
+            const Literal l = of_clause[k];
+            const Index variable = l / 2;
+            if (l == current || seen_[variable] != 0 || levels_[variable] == 0) {
+                continue;
+            }
+            seen_[variable] = 1;
+            marked_.push_back(l);
+            raise_activity(variable);
+            if (levels_[variable] == level()) {
+                ++open;
+            } else {
+                clause_.push_back(l);
+            }
+        }
+        do {
+            current = trail_[--place];
+        } while (seen_[current / 2] == 0);
+        conflict = reasons_[current / 2];
+        seen_[current / 2] = 0;
+        --open;
+    } while (open > 0);
+    clause_[0] = negate(current);
+    clause_.erase(std::remove_if(clause_.begin() + 1, clause_.end(),
+                                 [&](Literal l) { return is_implied(l); }),
+                  clause_.end());
+    for (const Literal l : marked_) {
+        seen_[l / 2] = 0;
+    }
+    Index back = 0;
+    for (std::size_t k = 1; k < clause_.size(); ++k) {
+        if (levels_[clause_[k] / 2] > back) {
+            back = levels_[clause_[k] / 2];
+            std::swap(clause_[1], clause_[k]);
+        }
+    }
+    return back;
+}
+
+/// The assumptions because of which `failed`, one of them, cannot hold.
+void SatSolver::explain(Literal failed)
+{
+    core_.assign(1, failed);
+    if (level() == 0) {
+        return;
+    }
+    seen_[failed / 2] = 1;
+    for (std::size_t i = trail_.size(); i-- > level_starts_[0];) {
+        const Literal l = trail_[i];
+        if (seen_[l / 2] == 0) {
+            continue;
+        }
+        const Clause reason = reasons_[l / 2];
+        if (reason == kNoReason) {
+            if (l != failed) {
+                core_.push_back(l);
+            }
+        } else {
+            const Literal* of_reason = literals(reason);
+            for (Index k = 0; k < size(reason); ++k) {
+                if (levels_[of_reason[k] / 2] > 0) {
+                    seen_[of_reason[k] / 2] = 1;
+                }
+            }
+        }
+        seen_[l / 2] = 0;
+    }
+    seen_[failed / 2] = 0;
+}
+
+void SatSolver::raise_activity(Index variable)
+{
+    activities_[variable] += activity_step_;
+    if (activities_[variable] > kMaxActivity) {
+        for (double& activity : activities_) {
+            activity /= kMaxActivity;
+        }
+        activity_step_ /= kMaxActivity;
+    }
+    if (heap_places_[variable] != kNone) {
+        sift_up(heap_places_[variable]);
+    }
+}
+
+void SatSolver::sift_up(Index place)
+{
+    const Index variable = heap_[place];
+    while (place > 0) {
+        const Index parent = (place - 1) / 2;
+        if (activities_[heap_[parent]] >= activities_[variable]) {
+            break;
+        }
+        heap_[place] = heap_[parent];
+        heap_places_[heap_[place]] = place;
+        place = parent;
+    }
+    heap_[place] = variable;
+    heap_places_[variable] = place;
+}
+
+void SatSolver::sift_down(Index place)
+{
+    const Index variable = heap_[place];
+    for (;;) {
+        Index child = 2 * place + 1;
+        if (child >= heap_.size()) {
+            break;
+        }
+        if (child + 1 < heap_.size() && activities_[heap_[child + 1]] > activities_[heap_[child]]) {
+            ++child;
+        }
+        if (activities_[heap_[child]] <= activities_[variable]) {
+            break;
+        }
+        heap_[place] = heap_[child];
+        heap_places_[heap_[place]] = place;
+        place = child;
+    }
+    heap_[place] = variable;
+    heap_places_[variable] = place;
+}
+
+Index SatSolver::take_most_active()
+{
+    const Index variable = heap_.front();
+    heap_places_[variable] = kNone;
+    heap_.front() = heap_.back();
+    heap_.pop_back();
+    if (!heap_.empty()) {
+        heap_places_[heap_.front()] = 0;
+        sift_down(0);
+    }
+    return variable;
+}
+
+/// Drops the worse half of the learned clauses; at level 0.
+void SatSolver::forget()
+{
+    std::vector<Clause> by_quality = learned_;
+    std::stable_sort(by_quality.begin(), by_quality.end(), [&](Clause a, Clause b) {
+        return distance(a) != distance(b) ? distance(a) < distance(b) : size(a) < size(b);
+    });
+    std::vector<Index> old = std::move(arena_);
+    std::vector<std::uint8_t> dropped(old.size(), 0);
+    for (std::size_t i = by_quality.size() / 2; i < by_quality.size(); ++i) {
+        if (old[by_quality[i] + 1] > kGoodDistance) {
+            dropped[by_quality[i]] = 1;
+        }
+    }
+    arena_.clear();
+    learned_.clear();
+    for (auto& watches : watches_) {
+        watches.clear();
+    }
+    for (std::size_t c = 0; c < old.size(); c += old[c] + 2) {
+        std::span<Literal> of_clause(old.data() + c + 2, old[c]);
+        // Clauses that hold anyway go as well; false literals would spoil the watches.
+        const bool holds =
+            std::any_of(of_clause.begin(), of_clause.end(), [&](Literal l) { return is_true(l); });
+        if (dropped[c] == 0 && !holds) {
+            clause_.clear();
+            std::copy_if(of_clause.begin(), of_clause.end(), std::back_inserter(clause_),
+                         [&](Literal l) { return !is_false(l); });
+            store(clause_, old[c + 1]);
+        }
+    }
+    // Nothing at level 0 is ever explained.
+    for (const Literal l : trail_) {
+        reasons_[l / 2] = kNoReason;
+    }
+}
+
+void SatSolver::begin(std::span<const Literal> assumptions)
+{
+    go_back(0);
+    phases_ = preferred_;
+    assumptions_.assign(assumptions.begin(), assumptions.end());
+    core_.clear();
+    conflicts_left_ = UINT64_MAX;
+    restart_conflicts_ = 0;
+    restarts_ = 0;
+}
+
+SatSolver::Outcome SatSolver::run(WorkBudget& budget)
+{
+    if (contradictory_) {
+        core_.clear();
+        return Outcome::unsatisfiable;
+    }
+    for (;;) {
+        const Clause conflict = propagate();
+        budget.charge(uncharged_ / kPropagationsPerWork);
+        uncharged_ %= kPropagationsPerWork;
+        if (conflict != kNone) {
+            ++conflict_count_;
+            ++restart_conflicts_;
+            if (level() == 0) {
+                contradictory_ = true;
+                core_.clear();
+                return Outcome::unsatisfiable;
+            }
+            const Index back = learn(conflict);
+            ++level_mark_;
+            level_marks_.resize(assigns_.size() + 1, 0);
+            Index blocks = 0;
+            for (const Literal l : clause_) {
+                Index& mark = level_marks_[levels_[l / 2]];
+                blocks += mark != level_mark_ ? 1 : 0;
+                mark = level_mark_;
+            }
+            go_back(back);
+            if (clause_.size() == 1) {
+                assign(clause_[0], kNoReason);
+            } else {
+                const Literal asserted = clause_[0];
+                assign(asserted, store(clause_, blocks));
+            }
+            activity_step_ /= kActivityDecay;
+            if (conflicts_left_ > 0 && conflicts_left_ != UINT64_MAX) {
+                --conflicts_left_;
+            }
+            continue;
+        }
+        if (budget.is_spent() || stopped()) {
+            return Outcome::running;
+        }
+        if (restart_conflicts_ >= kRestartUnit * luby(restarts_)) {
+            ++restarts_;
+            restart_conflicts_ = 0;
+            go_back(learned_.size() >= forget_at_
+                        ? 0
+                        : std::min(level(), static_cast<Index>(assumptions_.size())));
+            if (learned_.size() >= forget_at_) {
+                forget_at_ += 500;
+                forget();
+            }
+            continue;
+        }
+        Literal next = kNone;
+        while (level() < assumptions_.size()) {
+            const Literal assumption = assumptions_[level()];
+            if (is_true(assumption)) {
+                level_starts_.push_back(static_cast<Index>(trail_.size()));
+            } else if (is_false(assumption)) {
+                explain(assumption);
+                return Outcome::unsatisfiable;
+            } else {
+                next = assumption;
+                break;
+            }
+        }
+        while (next == kNone && !heap_.empty()) {
+            const Index variable = take_most_active();
+            if (assigns_[variable] == kUnassigned) {
+                next = 2 * variable + phases_[variable];
+            }
+        }
+        if (next == kNone) {
+            model_ = assigns_;
+            return Outcome::satisfiable;
+        }
+        level_starts_.push_back(static_cast<Index>(trail_.size()));
+        assign(next, kNoReason);
+    }
+}
+
+}  // namespace layout_embedding

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/types.hh"
+#include "search/work_budget.hh"
+
+namespace layout_embedding {
+
+/// Boolean satisfiability by conflict-driven clause learning (Marques-Silva and Sakallah 1999; Een
+/// and Soerensson 2003): two watched literals, first unique implication points, activities,
+/// restarts. Clauses and variables may be added between calls; what was learned stays, since it
+/// follows from the clauses alone. Solves under assumptions and says which of them contradict each
+/// other. Stepped and deterministic.
+class SatSolver {
+public:
+    /// A variable or its negation: 2 * variable, + 1 if negated.
+    using Literal = Index;
+    static Literal negate(Literal l) { return l ^ 1U; }
+
+    enum class Outcome { running, satisfiable, unsatisfiable };
+
+    /// A new variable, as its positive literal. Until something else is learned it is tried with
+    /// the value `preferred` first.
+    Literal add_variable(bool preferred = false);
+    Index variable_count() const { return static_cast<Index>(assigns_.size()); }
+    /// Of the literals, at least one holds. Not while a call is `running`.
+    void add_clause(std::span<const Literal> literals);
+    void add_clause(std::initializer_list<Literal> literals)
+    {
+        add_clause(std::span(literals.begin(), literals.size()));
+    }
+
+    /// Starts to look for an assignment in which all assumptions hold.
+    void begin(std::span<const Literal> assumptions);
+    /// Gives up after about this many more conflicts: `running` is returned, and stopped() holds.
+    void limit_conflicts(std::uint64_t conflicts) { conflicts_left_ = conflicts; }
+    /// Continues until the answer is known, the budget is spent, or the limit on conflicts is
+    /// reached.
+    Outcome run(WorkBudget& budget);
+    bool stopped() const { return conflicts_left_ == 0; }
+
+    /// After `satisfiable`: whether a literal holds.
+    bool holds(Literal l) const { return model_[l / 2] == (l & 1U); }
+    /// After `unsatisfiable`: assumptions that cannot hold together; empty if the clauses alone
+    /// contradict each other.
+    const std::vector<Literal>& core() const { return core_; }
+    /// Whether the clauses alone say that a literal holds.
+    bool is_fixed(Literal l) const { return assigns_[l / 2] == (l & 1U) && levels_[l / 2] == 0; }
+
+    std::uint64_t conflict_count() const { return conflict_count_; }
+
+private:
+    using Value = std::uint8_t;  // the sign of the literal that holds; kUnassigned
+    static constexpr Value kUnassigned = 2;
+
+    // A clause is a place in arena_: size, then block distance (0: not learned), then literals.
+    using Clause = Index;
+    struct Watch {
+        Clause clause;
+        Literal blocker;
+    };
+
+    Index size(Clause c) const { return arena_[c]; }
+    Index& distance(Clause c) { return arena_[c + 1]; }
+    Literal* literals(Clause c) { return arena_.data() + c + 2; }
+
+    bool is_true(Literal l) const { return assigns_[l / 2] == (l & 1U); }
+    bool is_false(Literal l) const { return assigns_[l / 2] == ((l & 1U) ^ 1U); }
+    Index level() const { return static_cast<Index>(level_starts_.size()); }
+
+    Clause store(std::span<const Literal> literals, Index block_distance);
+    void assign(Literal l, Clause reason);
+    Clause propagate();
+    void go_back(Index level);
+    Index learn(Clause conflict);
+    bool is_implied(Literal l);
+    void explain(Literal failed);
+    void raise_activity(Index variable);
+    Index take_most_active();
+    void sift_up(Index place);
+    void sift_down(Index place);
+    void forget();
+
+    std::vector<Index> arena_;
+    std::vector<Clause> learned_;
+    std::uint64_t wasted_ = 0;
+    std::vector<std::vector<Watch>> watches_;  // per literal: clauses to look at when it gets false
+    std::vector<Value> assigns_;
+    std::vector<Value> phases_;
+    std::vector<Value> preferred_;
+    std::vector<Index> levels_;
+    std::vector<Clause> reasons_;
+    std::vector<Literal> trail_;
+    std::vector<Index> level_starts_;
+    std::size_t propagated_ = 0;
+    bool contradictory_ = false;
+
+    std::vector<double> activities_;
+    double activity_step_ = 1;
+    std::vector<Index> heap_;         // variables, the most active first
+    std::vector<Index> heap_places_;  // kNone: not in it
+
+    std::vector<Literal> assumptions_;
+    std::vector<Literal> core_;
+    std::vector<Value> model_;
+    std::vector<Literal> clause_;     // being learned
+    std::vector<std::uint8_t> seen_;  // per variable
+    std::vector<Literal> marked_;
+    std::vector<Index> level_marks_;
+    Index level_mark_ = 0;
+
+    std::uint64_t conflicts_left_ = UINT64_MAX;
+    std::uint64_t conflict_count_ = 0;
+    std::uint64_t uncharged_ = 0;  // propagations
+    std::uint64_t restart_conflicts_ = 0;
+    std::uint64_t restarts_ = 0;
+    std::uint64_t forget_at_ = 4000;
+};
+
+}  // namespace layout_embedding
