@@ -132,6 +132,15 @@ void PartialEmbedding::go_to(std::span<const Index> sequence)
     }
 }
 
+std::vector<Index> PartialEmbedding::walks_around_misplaced_hole() const
+{
+    std::vector<Index> walks = hole_guard_.edges_around_misplaced_hole();
+    for (Index& walk : walks) {
+        walk = walks_[walk];
+    }
+    return walks;
+}
+
 bool PartialEmbedding::move_strands()
 {
     std::size_t common = 0;
@@ -178,9 +187,8 @@ bool PartialEmbedding::order_conflict(Index halfedge_a, Index walk_a, Index half
         return (place_a < place_b) != (rank_a < rank_b);
     }
     const Index h = embedded_at(v);
-    return h != kNone &&
-           is_before(pool_.place(h, walks_[Layout::edge(h)]), place_a, place_b) !=
-               is_before(layout().rank(h), rank_a, rank_b);
+    return h != kNone && is_before(pool_.place(h, walks_[Layout::edge(h)]), place_a, place_b) !=
+                             is_before(layout().rank(h), rank_a, rank_b);
 }
 
 CandidateConflicts PartialEmbedding::conflicts(std::span<const Index> candidates) const

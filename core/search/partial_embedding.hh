@@ -71,6 +71,10 @@ public:
     /// its partners in conflicts().pairs. Ascending.
     std::vector<Index> conflicting_with(Index layout_edge, std::span<const Index> candidates) const;
 
+    /// Walks that keep a hole of the target in the wrong layout face, none if every hole is where
+    /// the layout wants one. The strands are as of move_strands().
+    std::vector<Index> walks_around_misplaced_hole() const;
+
     /// Moves the strands to this state; false if they cannot get there, which only a tie of lengths
     /// that went unnoticed could cause.
     bool move_strands();

@@ -8,7 +8,7 @@ PathOracle::PathOracle(PartialEmbedding& embedding, CutSurfaceSearch& search, bo
     : embedding_(embedding),
       search_(search),
       remembers_(remember),
-      explanations_(embedding.layout().edge_count())
+      by_bound_(embedding.layout().edge_count())
 {}
 
 bool PathOracle::applies(const Explanation& explanation) const
@@ -21,7 +21,8 @@ bool PathOracle::applies(const Explanation& explanation) const
 PathOracle::Answer PathOracle::recall(Index layout_edge, Length limit) const
 {
     Answer best;
-    for (const Explanation& explanation : explanations_[layout_edge]) {
+    for (const Index i : by_bound_[layout_edge]) {
+        const Explanation& explanation = explanations_[i];
         if (applies(explanation)) {
             best.bound = explanation.bound;
             best.walk = explanation.walk;
@@ -40,9 +41,9 @@ PathOracle::Answer PathOracle::recall(Index layout_edge, Length limit) const
 
 Length PathOracle::known_bound(Index layout_edge) const
 {
-    for (const Explanation& explanation : explanations_[layout_edge]) {
-        if (applies(explanation)) {
-            return explanation.bound;
+    for (const Index i : by_bound_[layout_edge]) {
+        if (applies(explanations_[i])) {
+            return explanations_[i].bound;
         }
     }
     return 0;
@@ -51,23 +52,20 @@ Length PathOracle::known_bound(Index layout_edge) const
 void PathOracle::learn_unconstrained(Index walk)
 {
     const WalkPool& pool = embedding_.pool();
-    explanations_[pool.layout_edge(walk)].push_back({pool.cost(walk), walk, {}});
+    remember({pool.layout_edge(walk), pool.cost(walk), walk, {}});
 }
 
-void PathOracle::remember(Index layout_edge, const Answer& answer)
+void PathOracle::remember(Explanation explanation)
 {
-    std::vector<Index> blockers = search_.blockers();
-    for (Index& blocker : blockers) {
-        blocker = embedding_.walk(blocker);
-    }
-    auto& explanations = explanations_[layout_edge];
-    const auto comes_before = [](const Explanation& a, const Explanation& b) {
+    auto& by_bound = by_bound_[explanation.layout_edge];
+    const auto comes_before = [&](const Explanation& a, Index other) {
+        const Explanation& b = explanations_[other];
         return a.bound != b.bound ? a.bound > b.bound : a.walk < b.walk;
     };
-    Explanation explanation{answer.bound, answer.walk, std::move(blockers)};
-    explanations.insert(
-        std::upper_bound(explanations.begin(), explanations.end(), explanation, comes_before),
-        std::move(explanation));
+    const auto place =
+        std::upper_bound(by_bound.begin(), by_bound.end(), explanation, comes_before);
+    by_bound.insert(place, static_cast<Index>(explanations_.size()));
+    explanations_.push_back(std::move(explanation));
 }
 
 PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, WorkBudget& budget)
@@ -110,7 +108,11 @@ PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, WorkBudget&
     }
     searching_ = kNone;
     if (remembers_ && answer.outcome != Outcome::tied) {
-        remember(layout_edge, answer);
+        std::vector<Index> blockers = search_.blockers();
+        for (Index& blocker : blockers) {
+            blocker = embedding_.walk(blocker);
+        }
+        remember({layout_edge, answer.bound, answer.walk, std::move(blockers)});
     }
     return answer;
 }

@@ -48,25 +48,34 @@ public:
     /// Takes note of an edge's shortest path with nothing embedded.
     void learn_unconstrained(Index walk);
 
+    /// Why the paths of an edge are no shorter in the states that contain certain walks.
+    struct Explanation {
+        Index layout_edge;
+        /// Lower bound; kInfiniteLength if there is no path at all.
+        Length bound;
+        /// The shortest path, of length `bound`, where it still fits; kNone where only the bound is
+        /// known.
+        Index walk;
+        std::vector<Index> blockers;  // walks
+    };
+    /// All that were found so far, oldest first.
+    const std::vector<Explanation>& explanations() const { return explanations_; }
+
     /// Questions answered without a search.
     std::uint64_t remembered_count() const { return remembered_count_; }
 
 private:
-    struct Explanation {
-        Length bound;
-        Index walk;                   // kNone where only the bound is known
-        std::vector<Index> blockers;  // walks
-    };
     bool applies(const Explanation& explanation) const;
-    void remember(Index layout_edge, const Answer& answer);
+    void remember(Explanation explanation);
     Answer recall(Index layout_edge, Length limit) const;
 
     PartialEmbedding& embedding_;
     CutSurfaceSearch& search_;
     bool remembers_;
     Index searching_ = kNone;
-    /// Per layout edge: the largest bound first, of equal ones those with a walk.
-    std::vector<std::vector<Explanation>> explanations_;
+    std::vector<Explanation> explanations_;
+    /// Per layout edge: its explanations, the largest bound first, of equal ones those with a walk.
+    std::vector<std::vector<Index>> by_bound_;
     std::uint64_t remembered_count_ = 0;
 };
 

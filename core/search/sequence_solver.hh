@@ -4,16 +4,9 @@
 
 #include "layout/embedding_problem.hh"
 #include "search/branch_and_bound.hh"
-#include "search/greedy.hh"
-#include "search/incumbent.hh"
-#include "search/local_search.hh"
-#include "search/partial_embedding.hh"
-#include "search/path_oracle.hh"
+#include "search/search_space.hh"
 #include "search/solver.hh"
-#include "surface/cut_surface_search.hh"
-#include "surface/distance_field.hh"
-#include "surface/strands.hh"
-#include "surface/walk_pool.hh"
+#include "search/starting_search.hh"
 
 namespace layout_embedding {
 
@@ -38,38 +31,23 @@ public:
     Outcome run(WorkBudget& budget) override;
     Length lower_bound() const override;
     BoundScope bound_scope() const override;
-    Length incumbent_cost() const override { return incumbent_.cost(); }
-    const WeakEmbedding& incumbent() const override { return incumbent_.weak_embedding(); }
-    std::vector<Index> incumbent_order() const override;
+    Length incumbent_cost() const override { return space_.incumbent.cost(); }
+    const WeakEmbedding& incumbent() const override { return space_.incumbent.weak_embedding(); }
+    std::vector<Index> incumbent_order() const override { return space_.incumbent_order(); }
     const std::vector<Index>& current_path(Index layout_edge) const override
     {
-        return strands_.darts(layout_edge);
+        return space_.strands.darts(layout_edge);
     }
-    double progress() const override;
+    double progress() const override { return start_ ? start_->progress() : 0; }
     SearchCounters counters() const override;
 
 private:
-    enum class Stage { greedy, local_search, branch_and_bound };
+    Length root_bound() const;
 
-    Outcome run_greedy(WorkBudget& budget);
-    Outcome run_local_search(WorkBudget& budget);
-    Outcome run_branch_and_bound(WorkBudget& budget);
-    Outcome take_greedy_embedding();
-
-    SequenceSolverOptions options_;
-    Strands strands_;
-    DistanceFields fields_;
-    CutSurfaceSearch search_;
-    WalkPool pool_;
-    PartialEmbedding embedding_;
-    PathOracle oracle_;
-    Incumbent incumbent_;
-    Stage stage_;
-    std::unique_ptr<GreedySearch> greedy_;
-    std::unique_ptr<LocalSearch> local_search_;
+    SearchSpace space_;
+    std::unique_ptr<StartingSearch> start_;  // null without a start
+    bool started_;
     BranchAndBound branch_and_bound_;
-    std::vector<Index> root_walks_;  // per layout edge, once known
-    Length root_bound_ = 0;
 };
 
 }  // namespace layout_embedding

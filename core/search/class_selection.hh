@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "base/types.hh"
+#include "layout/layout.hh"
+#include "search/weighted_sat.hh"
+#include "search/work_budget.hh"
+#include "surface/walk_pool.hh"
+
+namespace layout_embedding {
+
+/// The cheapest choice of one homotopy class per layout edge so that all can be embedded together,
+/// as far as classes are known (design, Sec. 3; proof.md, Theorem 1). A class is known by its
+/// shortest walk; all that are not known are one choice more, the *rest*, which fits everything and
+/// costs at least what is known of it. The cost of the cheapest choice bounds every embedding from
+/// below; if no rest is in it, it is an embedding, and the best of all.
+///
+/// Kept as clauses and costs in a WeightedSat that grows as classes and bounds become known; cyclic
+/// orders around landmarks are added where a choice violates them.
+class ClassSelection {
+public:
+    using Outcome = WeightedSat::Outcome;
+
+    /// Keeps references. `is_linear`: per layout vertex, whether the orders of the edges there are
+    /// linear, as they are at landmarks on the target's boundary.
+    ClassSelection(const Layout& layout, const WalkPool& pool, std::vector<bool> is_linear);
+
+    /// Every class of the edge costs at least this. Once per edge, before anything else.
+    void set_base(Index layout_edge, Length bound);
+    /// One more known class. Nothing to do if it is known already.
+    void add_class(Index walk);
+    /// All classes of the edge that cost less than `bound` and could be embedded together with the
+    /// walks `blockers` of other edges are known.
+    void add_bound(Index layout_edge, std::span<const Index> blockers, Length bound);
+    /// Only choices cheaper than this matter. Only ever lowered.
+    void lower_upper_bound(Length cost) { sat_.lower_upper_bound(cost); }
+    /// Not all of these classes can be chosen together.
+    void forbid(std::span<const Index> walks);
+
+    /// Continues until something happens; where `satisfied` or `optimal`, there is a choice, in
+    /// which all classes can be embedded together.
+    Outcome run(WorkBudget& budget);
+
+    /// After `satisfied` or `optimal`: the class chosen, kNone for the rest.
+    Index choice(Index layout_edge) const { return choices_[layout_edge]; }
+    Length lower_bound() const { return sat_.lower_bound(); }
+    /// Known classes.
+    Index class_count() const { return class_count_; }
+    const WeightedSat& sat() const { return sat_; }
+
+private:
+    using Literal = WeightedSat::Literal;
+    static constexpr Literal kTrue = kNone;
+
+    struct Edge {
+        Length base = 0;
+        Literal rest = kTrue;
+        std::vector<Index> walks;
+        /// "This edge costs at least so much", ascending.
+        std::map<Length, Literal> levels;
+    };
+
+    Literal literal(Index walk) const { return walk < literals_.size() ? literals_[walk] : kNone; }
+    Literal level(Index layout_edge, Length cost);
+    void read_choices();
+    bool add_violated_orders();
+    bool is_wrong(const std::array<Index, 3>& halfedges, const std::array<Index, 3>& walks) const;
+    void forbid_order(const std::array<Index, 3>& walks);
+
+    const Layout& layout_;
+    const WalkPool& pool_;
+    std::vector<bool> is_linear_;
+    WeightedSat sat_;
+    std::vector<Edge> edges_;
+    std::vector<Literal> literals_;  // per walk; kNone if it is not known here
+    std::vector<Index> choices_;
+    std::set<std::array<Index, 3>> forbidden_orders_;
+    Index class_count_ = 0;
+};
+
+}  // namespace layout_embedding
