@@ -9,6 +9,7 @@
 #include "embedding/realisation.hh"
 #include "embedding/straightening.hh"
 #include "embedding/weak_to_normal_form.hh"
+#include "search/exact_solver.hh"
 #include "search/greedy_solver.hh"
 #include "search/sequence_solver.hh"
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
@@ -51,6 +52,11 @@ bool is_heuristic(Algorithm algorithm)
 std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathGraph& graph,
                                     std::uint64_t field_bytes, const EmbedOptions& options)
 {
+    if (options.algorithm == Algorithm::exact) {
+        ExactSolverOptions exact;
+        exact.gap = options.gap;
+        return std::make_unique<ExactSolver>(problem, graph, field_bytes, exact);
+    }
     if (options.algorithm == Algorithm::branch_and_bound) {
         SequenceSolverOptions sequences;
         sequences.branch_and_bound.gap = options.gap;
@@ -243,7 +249,8 @@ struct EmbedJob::Implementation {
         if (options.work_limit) {
             return *options.work_limit;
         }
-        if (options.algorithm != Algorithm::branch_and_bound) {
+        if (options.algorithm != Algorithm::branch_and_bound &&
+            options.algorithm != Algorithm::exact) {
             return UINT64_MAX;  // ends by itself
         }
         // Until there is an embedding, what two searches of the whole graph per layout edge take.

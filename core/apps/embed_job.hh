@@ -19,10 +19,11 @@
 
 namespace layout_embedding {
 
-/// How paths are chosen: by a greedy heuristic (search/greedy.hh), or by branch and bound over
-/// insertion sequences (search/sequence_solver.hh). The numbers stay as they are; interfaces count
+/// How paths are chosen: by a greedy heuristic (search/greedy.hh), by branch and bound over
+/// insertion sequences (search/sequence_solver.hh), or by the exact selection of homotopy classes
+/// (search/exact_solver.hh). The numbers stay as they are; interfaces count
 /// on them.
-enum class Algorithm : std::uint32_t { greedy, praun, kraevoy, schreiner, branch_and_bound };
+enum class Algorithm : std::uint32_t { greedy, praun, kraevoy, schreiner, branch_and_bound, exact };
 
 /// Why a job ended.
 enum class EmbedStatus : std::uint32_t {
@@ -49,16 +50,17 @@ enum class EmbedStatus : std::uint32_t {
 enum class EmbedPhase : std::uint32_t { prepare, search, realise, check, done };
 
 struct EmbedOptions {
-    Algorithm algorithm = Algorithm::branch_and_bound;
+    Algorithm algorithm = Algorithm::exact;
     /// The gap to be reached, (cost - lower bound) / cost; 0 asks for the optimum.
     double gap = 0.01;
     std::uint64_t seed = 1;
     /// Wall-clock seconds for the search; infinity for none. Results under this limit depend on the
     /// machine; use work_limit for reproducible ones.
     double time_limit = std::numeric_limits<double>::infinity();
-    /// Units of work for the search (WorkBudget: about node expansions). If it is not given, branch
-    /// and bound stops kDefaultPatience units after its first embedding, or, while there is none,
-    /// after what two searches of the whole path graph per layout edge would take.
+    /// Units of work for the search (WorkBudget: about node expansions). If it is not given, the
+    /// exact method and branch and bound stop kDefaultPatience units after their first embedding,
+    /// or, while there is none, after what two searches of the whole path graph per layout edge
+    /// would take.
     std::optional<std::uint64_t> work_limit;
     PathShape shape = PathShape::shortened;
     /// Bytes the job may take, estimated before it starts.

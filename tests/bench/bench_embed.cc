@@ -1,9 +1,9 @@
 // One embedding, natively, measured for bench.mjs:
 //
-//   bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM]
+//   bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM [GAP]]
 //
 // LANDMARKS is a file or `proximity`, WORK the most units of work the search may spend; without an
-// ALGORITHM it is the library's default. Prints one JSON object, as embed_wasm.mjs does.
+// ALGORITHM or a GAP to be reached they are the library's defaults. Prints one JSON object, as embed_wasm.mjs does.
 
 #include <cinttypes>
 #include <cmath>
@@ -29,7 +29,7 @@ namespace {
 
 // The names the package uses, in the order of the enumerations.
 constexpr const char* kAlgorithms[] = {"greedy", "praun", "kraevoy", "schreiner",
-                                       "branch-and-bound"};
+                                       "branch-and-bound", "exact"};
 constexpr const char* kStatuses[] = {"running",    "optimal",   "gapReached",  "feasible",
                                      "timeLimit",  "workLimit", "memoryLimit", "cancelled",
                                      "infeasible", "noneFound", "failed"};
@@ -40,6 +40,7 @@ struct Arguments {
     const char* landmarks;
     std::uint64_t work;
     std::optional<Algorithm> algorithm;
+    std::optional<double> gap;
 };
 
 double cpu_seconds()
@@ -274,6 +275,7 @@ int run(const Arguments& arguments)
     EmbedOptions options;
     options.work_limit = arguments.work;
     options.algorithm = arguments.algorithm.value_or(options.algorithm);
+    options.gap = arguments.gap.value_or(options.gap);
     const TriangleMesh& target = *problem->target;
     const std::string size = Object()
                                  .put("vertices", std::uint64_t{target.vertex_count()})
@@ -335,17 +337,21 @@ std::optional<Algorithm> algorithm_of(const std::string& name)
 
 int run(int count, char** words)
 {
-    if (count < 5 || count > 6) {
-        std::fprintf(stderr, "usage: bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM]\n");
+    if (count < 5 || count > 7) {
+        std::fprintf(stderr,
+                     "usage: bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM [GAP]]\n");
         return 2;
     }
-    Arguments arguments{words[1], words[2], words[3], std::strtoull(words[4], nullptr, 10), {}};
-    if (count == 6) {
+    Arguments arguments{words[1], words[2], words[3], std::strtoull(words[4], nullptr, 10), {}, {}};
+    if (count >= 6) {
         arguments.algorithm = algorithm_of(words[5]);
         if (!arguments.algorithm) {
             std::fprintf(stderr, "there is no algorithm %s\n", words[5]);
             return 2;
         }
+    }
+    if (count == 7) {
+        arguments.gap = std::strtod(words[6], nullptr);
     }
     return run(arguments);
 }

@@ -63,7 +63,8 @@ EmbedOptions with_seed(std::uint64_t seed, Algorithm algorithm = Algorithm::bran
     return options;
 }
 
-constexpr Algorithm kBothKinds[] = {Algorithm::greedy, Algorithm::branch_and_bound};
+constexpr Algorithm kAllKinds[] = {Algorithm::greedy, Algorithm::branch_and_bound,
+                                   Algorithm::exact};
 
 void expect_same_events(const std::vector<EmbedEvent>& a, const std::vector<EmbedEvent>& b)
 {
@@ -153,7 +154,7 @@ TEST(EmbedJob, results_are_consistent_and_pass_an_independent_check)
     int complete = 0;
     for (const Input& input : all_inputs()) {
         SCOPED_TRACE(input.name);
-        const Algorithm algorithm = kBothKinds[complete % 2];
+        const Algorithm algorithm = kAllKinds[complete % 2];
         EmbedJob job(input.problem(), with_seed(1, algorithm));
         finish(job);
         EXPECT_FALSE(job.step());
@@ -234,7 +235,7 @@ TEST(EmbedJob, slices_change_nothing_but_seconds)
     const auto inputs = all_inputs();
     for (std::size_t i = 0; i < inputs.size(); i += 3) {
         SCOPED_TRACE(inputs[i].name);
-        EmbedOptions options = with_seed(2, kBothKinds[i % 2]);
+        EmbedOptions options = with_seed(2, kAllKinds[i % 2]);
         options.work_limit = 20000;
         EmbedJob whole(inputs[i].problem(), options);
         finish(whole);
@@ -292,7 +293,7 @@ TEST(EmbedJob, a_seed_gives_the_same_result_again_and_another_one_the_same_up_to
 TEST(EmbedJob, a_work_limit_stops_at_the_same_place_however_the_job_is_sliced)
 {
     const Input input = all_inputs()[0];
-    for (const Algorithm algorithm : kBothKinds) {
+    for (const Algorithm algorithm : kAllKinds) {
         EmbedOptions options = with_seed(5, algorithm);
         EmbedJob whole(input.problem(), options);
         finish(whole);
@@ -320,7 +321,7 @@ TEST(EmbedJob, a_work_limit_stops_at_the_same_place_however_the_job_is_sliced)
             expect_same_results(sliced.result(), result);
             expect_same_events(sliced.events(), job.events());
         }
-        EXPECT_EQ(with_incumbent > 0, algorithm == Algorithm::branch_and_bound);
+        EXPECT_EQ(with_incumbent > 0, algorithm != Algorithm::greedy);
         options.work_limit = needed;
         EmbedJob job(input.problem(), options);
         finish(job);

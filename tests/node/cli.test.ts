@@ -51,7 +51,7 @@ describe("embed", () => {
             expect(files).toHaveLength(3);
             expect(written).toMatchObject({
                 version: 1,
-                algorithm: "branch-and-bound",
+                algorithm: "exact",
                 seed: 1,
                 limits: { gap: 0.01, timeLimit: null, workLimit: null, memoryLimit: null },
                 landmarks: displacedLandmarks,

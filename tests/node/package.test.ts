@@ -96,7 +96,10 @@ describe("an embedding", () => {
     );
 
     test("by_branch_and_bound_proves_the_best_insertion_sequence", async () => {
-        const result = await embed({ ...problem, landmarks: displacedLandmarks }, { gap: 0 });
+        const result = await embed(
+            { ...problem, landmarks: displacedLandmarks },
+            { gap: 0, algorithm: "branch-and-bound" },
+        );
         expect(result.status).toBe("optimal");
         expect(result.exactCost).toBe(result.exactLowerBound);
         expect(result.boundScope).toBe("insertionSequences");
@@ -105,6 +108,16 @@ describe("an embedding", () => {
         const costs = result.events.filter(({ kind }) => kind === "incumbent");
         expect(costs.length).toBeGreaterThan(0);
         expect(costs.at(-1)!.cost).toBe(result.cost);
+    });
+
+    test("by_default_proves_the_best_of_all_embeddings", async () => {
+        const input = { ...problem, landmarks: displacedLandmarks };
+        const result = await embed(input, { gap: 0 });
+        expect(result.status).toBe("optimal");
+        expect(result.exactCost).toBe(result.exactLowerBound);
+        expect(result.boundScope).toBe("embeddings");
+        const sequences = await embed(input, { gap: 0, algorithm: "branch-and-bound" });
+        expect(result.exactCost! <= sequences.exactCost!).toBe(true);
     });
 
     test("without_landmarks_starts_from_proximity", async () => {

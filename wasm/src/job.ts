@@ -21,7 +21,14 @@ import type {
 } from "./types.js";
 
 // In the order of the core's enumerations (core/apps/embed_job.hh).
-const algorithms: Algorithm[] = ["greedy", "praun", "kraevoy", "schreiner", "branch-and-bound"];
+const algorithms: Algorithm[] = [
+    "greedy",
+    "praun",
+    "kraevoy",
+    "schreiner",
+    "branch-and-bound",
+    "exact",
+];
 const shapes: PathShape[] = ["even", "short"];
 const statuses: (EmbedStatus | "running" | "failed")[] = [
     "running",
@@ -64,7 +71,7 @@ export interface JobOptions {
 /** Checks options; throws invalidOption. */
 export function jobOptions(options: SolveOptions): JobOptions {
     const checked: JobOptions = {
-        algorithm: options.algorithm ?? "branch-and-bound",
+        algorithm: options.algorithm ?? "exact",
         gap: options.gap ?? 0.01,
         shape: options.shape ?? "short",
         timeLimit: options.timeLimit ?? Infinity,

@@ -128,9 +128,16 @@ export interface TemplateLayout {
 /**
  * How the search goes. Four heuristics insert the layout edges one by one and differ in the order:
  * the shortest path first (greedy), or after [PSS01] (praun), [KSG03, KS04] (kraevoy) and [SAPH04]
- * (schreiner). Branch and bound looks for the best of all orders, and proves how good it is.
+ * (schreiner). Branch and bound looks for the best of all orders, and proves how good it is among
+ * them. The exact method looks for the best embedding of all, and proves how good it is among all.
  */
-export type Algorithm = "greedy" | "praun" | "kraevoy" | "schreiner" | "branch-and-bound";
+export type Algorithm =
+    | "greedy"
+    | "praun"
+    | "kraevoy"
+    | "schreiner"
+    | "branch-and-bound"
+    | "exact";
 
 /**
  * How paths run within their homotopy classes. `even`: crossing the target's edges at even distances,
@@ -161,7 +168,7 @@ export type BoundScope = "embeddings" | "insertionSequences";
 export type EmbedPhase = "prepare" | "search" | "realise" | "check" | "done";
 
 export interface SolveOptions {
-    /** Default: branch-and-bound. */
+    /** Default: exact. */
     algorithm?: Algorithm;
     /** The gap to be reached, (cost - lowerBound) / cost; 0 asks for the optimum. Default 0.01. */
     gap?: number;
@@ -171,7 +178,7 @@ export interface SolveOptions {
     timeLimit?: number;
     /**
      * Units of work for the search, each about the expansion of a node; reproducible. Default: none
-     * for the heuristics; branch and bound stops 15 million units after its first embedding, a few
+     * for the heuristics; the others stop 15 million units after their first embedding, a few
      * seconds. Infinity counts as not given.
      */
     workLimit?: number;

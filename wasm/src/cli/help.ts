@@ -15,7 +15,8 @@ Options of all
 
 Options of embed
   --output DIR         write refined.obj, refined_map.json and embedding.json there
-  --algorithm NAME     branch-and-bound (default), greedy, praun, kraevoy or schreiner
+  --algorithm NAME     exact (default), branch-and-bound, greedy, praun, kraevoy or
+                       schreiner
   --gap X              stop at this gap, (cost - lower bound) / cost (default 0.01)
   --time-limit S       stop the search after S seconds
   --work-limit N       stop the search after N units of work (about node expansions);

@@ -7,6 +7,7 @@ import type { Store } from "../model/store.js";
 import { element, setText } from "./dom.js";
 
 const algorithms: readonly Algorithm[] = [
+    "exact",
     "branch-and-bound",
     "greedy",
     "praun",

@@ -1,0 +1,266 @@
+#include "search/exact_solver.hh"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+#include "embedding_checks.hh"
+#include "instances.hh"
+#include "search/sequence_solver.hh"
+#include "search_ground.hh"
+#include "surface/stretch.hh"
+#include "zoo.hh"
+
+namespace layout_embedding {
+namespace {
+
+using test::Instance;
+
+constexpr std::uint64_t kFieldBytes = std::uint64_t{1} << 30U;
+
+/// A solver run to its end, whose bounds and incumbents are looked at on the way.
+template <typename Solver, typename Options>
+struct Run {
+    Run(const EmbeddingProblem& problem, const Options& options, std::uint64_t slice = UINT64_MAX)
+        : graph(PathGraph::barycentric(*problem.target, {1, 0})),
+          solver(problem, graph, kFieldBytes, options)
+    {
+        Length bound = 0;
+        Length cost = kInfiniteLength;
+        for (;;) {
+            WorkBudget budget(slice);
+            const auto outcome = solver.run(budget);
+            work += budget.spent();
+            EXPECT_NE(outcome, Solver::Outcome::tied);
+            EXPECT_GE(solver.lower_bound(), bound);
+            EXPECT_LE(solver.incumbent_cost(), cost);
+            EXPECT_LE(solver.lower_bound(), solver.incumbent_cost());
+            bound = solver.lower_bound();
+            if (solver.incumbent_cost() < cost) {
+                cost = solver.incumbent_cost();
+                test::expect_strands(problem, graph, solver.incumbent());
+                EXPECT_EQ(test::total_length(graph, solver.incumbent()), cost);
+            }
+            if (outcome != Solver::Outcome::running) {
+                happened.emplace_back(outcome, work);
+            }
+            if (outcome == Solver::Outcome::finished || outcome == Solver::Outcome::tied) {
+                return;
+            }
+        }
+    }
+
+    PathGraph graph;
+    Solver solver;
+    std::uint64_t work = 0;
+    std::vector<std::pair<layout_embedding::Solver::Outcome, std::uint64_t>> happened;
+};
+
+using ExactRun = Run<ExactSolver, ExactSolverOptions>;
+using SequenceRun = Run<SequenceSolver, SequenceSolverOptions>;
+
+SequenceSolverOptions best_sequence()
+{
+    SequenceSolverOptions options;
+    options.branch_and_bound.gap = 0;
+    return options;
+}
+
+/// Those of random_instances() with few layout edges: others take long to be proved.
+std::vector<Instance> small_instances(std::uint64_t seed, int count)
+{
+    std::vector<Instance> instances = test::random_instances(seed, count);
+    std::erase_if(instances, [](const Instance& instance) {
+        return instance.problem.layout->edge_count() > 12;
+    });
+    return instances;
+}
+
+/// The cheapest selection of homotopy classes by trying all that are cheaper than `limit`, each
+/// edge's classes enumerated as far as that needs. Nothing is shared with the solver but the
+/// enumeration and the test of two walks for a crossing.
+class AllSelections {
+public:
+    AllSelections(const EmbeddingProblem& problem, Length limit)
+        : ground_(problem, 1), best_(limit), classes_(problem.layout->edge_count())
+    {
+        const Layout& layout = ground_.strands.layout();
+        std::vector<Index> nodes;
+        for (Index v = 0; v < layout.vertex_count(); ++v) {
+            nodes.push_back(ground_.strands.landmark_node(v));
+        }
+        std::vector<Length> shortest;
+        Length root = 0;
+        for (Index e = 0; e < layout.edge_count(); ++e) {
+            ground_.search.begin(e);
+            EXPECT_EQ(ground_.search.run(), CutSurfaceSearch::Outcome::found);
+            shortest.push_back(ground_.search.cost());
+            root += shortest.back();
+        }
+        for (Index e = 0; e < layout.edge_count(); ++e) {
+            Index v = 0;
+            while (v == layout.tail(2 * e) || v == layout.head(2 * e)) {
+                ++v;
+            }
+            const CutSystem cuts(ground_.graph, nodes, v);
+            ClassEnumeration enumeration(ground_.strands, ground_.fields);
+            enumeration.begin(cuts, e, shortest[e] + (limit - root));
+            while (enumeration.run() == ClassEnumeration::Outcome::found) {
+                classes_[e].push_back({enumeration.cost(), enumeration.darts()});
+            }
+        }
+        rest_.assign(classes_.size() + 1, 0);
+        for (std::size_t e = classes_.size(); e-- > 0;) {
+            rest_[e] = rest_[e + 1] + shortest[e];
+        }
+        visit(0, 0);
+    }
+
+    Length best() const { return best_; }
+
+private:
+    struct Class {
+        Length cost;
+        std::vector<Index> darts;
+    };
+
+    bool crosses(const std::vector<Index>& a, const std::vector<Index>& b) const
+    {
+        const PathGraph& graph = ground_.graph;
+        for (Index i = 0; i + 1 < a.size(); ++i) {
+            for (Index j = 0; j + 1 < b.size(); ++j) {
+                if (graph.head(a[i]) == graph.head(b[j]) && stretch_crosses(graph, a, i, b, j)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    void visit(Index edge, Length cost)
+    {
+        if (cost + rest_[edge] >= best_) {
+            return;
+        }
+        if (edge == classes_.size()) {
+            // The strands themselves say whether the orders around the landmarks are right.
+            bool fits = true;
+            Index inserted = 0;
+            for (Index e = 0; e < edge && fits; ++e) {
+                fits = ground_.strands.insert(e, chosen_[e]->darts);
+                inserted += fits ? 1 : 0;
+            }
+            while (inserted-- > 0) {
+                ground_.strands.undo();
+            }
+            best_ = fits ? cost : best_;
+            return;
+        }
+        for (const Class& candidate : classes_[edge]) {
+            if (std::none_of(chosen_.begin(), chosen_.end(), [&](const Class* other) {
+                    return crosses(candidate.darts, other->darts);
+                })) {
+                chosen_.push_back(&candidate);
+                visit(edge + 1, cost + candidate.cost);
+                chosen_.pop_back();
+            }
+        }
+    }
+
+    test::SearchGround ground_;
+    Length best_;
+    std::vector<std::vector<Class>> classes_;
+    std::vector<Length> rest_;
+    std::vector<const Class*> chosen_;
+};
+
+TEST(ExactSolver, finds_the_best_of_all_selections)
+{
+    int above_root = 0;
+    int looked_into = 0;
+    for (const Instance& instance : test::tiny_instances(201, 90)) {
+        SCOPED_TRACE(instance.name);
+        const ExactRun run(instance.problem, {});
+        ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+        const AllSelections all(instance.problem, run.solver.incumbent_cost() + 1);
+        EXPECT_EQ(run.solver.incumbent_cost(), all.best());
+        above_root += run.solver.counters().states_created > 0 ? 1 : 0;
+        looked_into += run.solver.counters().states_expanded > 0 ? 1 : 0;
+    }
+    EXPECT_GT(above_root, 30);
+    EXPECT_GT(looked_into, 10);
+}
+
+TEST(ExactSolver, is_never_worse_than_the_best_insertion_sequence_nor_bounds_what_is_better)
+{
+    int equal = 0;
+    int count = 0;
+    std::vector<Instance> instances = test::tiny_instances(202, 120);
+    for (Instance& instance : small_instances(203, 12)) {
+        instances.push_back(std::move(instance));
+    }
+    for (const Instance& instance : instances) {
+        SCOPED_TRACE(instance.name);
+        const ExactRun exact(instance.problem, {});
+        const SequenceRun sequences(instance.problem, best_sequence());
+        EXPECT_EQ(exact.solver.lower_bound(), exact.solver.incumbent_cost());
+        EXPECT_LE(exact.solver.incumbent_cost(), sequences.solver.incumbent_cost());
+        ++count;
+        equal += exact.solver.incumbent_cost() == sequences.solver.incumbent_cost() ? 1 : 0;
+    }
+    // There are instances where no insertion sequence is best; they are rare.
+    EXPECT_GT(equal, 9 * count / 10);
+}
+
+TEST(ExactSolver, slices_change_neither_what_happens_nor_when)
+{
+    for (const Instance& instance : small_instances(204, 10)) {
+        SCOPED_TRACE(instance.name);
+        const ExactRun whole(instance.problem, {});
+        for (const std::uint64_t slice : {7U, 500U}) {
+            const ExactRun sliced(instance.problem, {}, slice);
+            EXPECT_EQ(sliced.happened, whole.happened);
+            EXPECT_EQ(sliced.solver.incumbent_cost(), whole.solver.incumbent_cost());
+            EXPECT_EQ(sliced.solver.incumbent_order(), whole.solver.incumbent_order());
+            EXPECT_EQ(sliced.solver.counters().expansions, whole.solver.counters().expansions);
+        }
+    }
+}
+
+TEST(ExactSolver, stops_at_the_gap_asked_for)
+{
+    int stopped = 0;
+    for (const Instance& instance : small_instances(205, 14)) {
+        SCOPED_TRACE(instance.name);
+        const ExactRun whole(instance.problem, {});
+        const ExactRun rough(instance.problem, {0.1});
+        const Length cost = rough.solver.incumbent_cost();
+        EXPECT_GE(rough.solver.lower_bound(), cost - cost / 10);
+        EXPECT_LE(rough.solver.lower_bound(), whole.solver.incumbent_cost());
+        stopped += rough.work < whole.work ? 1 : 0;
+    }
+    EXPECT_GT(stopped, 3);
+}
+
+TEST(ExactSolver, proves_embeddings_on_surfaces_of_higher_genus)
+{
+    Random random(206);
+    int count = 0;
+    const auto solve = [&](const std::string& name, const PolygonMesh& layout,
+                           const PolygonMesh& target, const std::vector<Index>& landmarks) {
+        SCOPED_TRACE(name);
+        const auto problem = test::problem_of(layout, target, landmarks);
+        const ExactRun run(problem, {});
+        EXPECT_NE(run.solver.incumbent_cost(), kInfiniteLength);
+        EXPECT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+        ++count;
+    };
+    const PolygonMesh ring = zoo::torus(9, 6);
+    for (int i = 0; i < 4; ++i) {
+        solve("torus", zoo::quad_torus(3, 3), ring,
+              zoo::displaced_landmarks(zoo::quad_torus(3, 3), ring, 0.2, random.bits()));
+    }
+    EXPECT_EQ(count, 4);
+}
+
+}  // namespace
+}  // namespace layout_embedding
