@@ -10,6 +10,11 @@ export default tseslint.config(
         languageOptions: { globals: globals.node },
     },
     {
+        // Parts of it run in a page.
+        files: [".dev/pictures.mjs"],
+        languageOptions: { globals: globals.browser },
+    },
+    {
         files: ["**/*.ts"],
         extends: [tseslint.configs.recommendedTypeChecked],
         languageOptions: {

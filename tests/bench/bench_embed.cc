@@ -3,7 +3,8 @@
 //   bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM [GAP]]
 //
 // LANDMARKS is a file or `proximity`, WORK the most units of work the search may spend; without an
-// ALGORITHM or a GAP to be reached they are the library's defaults. Prints one JSON object, as embed_wasm.mjs does.
+// ALGORITHM or a GAP to be reached they are the library's defaults. Prints one JSON object, as
+// embed_wasm.mjs does.
 
 #include <cinttypes>
 #include <cmath>
@@ -28,7 +29,7 @@ namespace layout_embedding {
 namespace {
 
 // The names the package uses, in the order of the enumerations.
-constexpr const char* kAlgorithms[] = {"greedy", "praun", "kraevoy", "schreiner",
+constexpr const char* kAlgorithms[] = {"greedy",           "praun", "kraevoy", "schreiner",
                                        "branch-and-bound", "exact"};
 constexpr const char* kStatuses[] = {"running",    "optimal",   "gapReached",  "feasible",
                                      "timeLimit",  "workLimit", "memoryLimit", "cancelled",
@@ -338,8 +339,7 @@ std::optional<Algorithm> algorithm_of(const std::string& name)
 int run(int count, char** words)
 {
     if (count < 5 || count > 7) {
-        std::fprintf(stderr,
-                     "usage: bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM [GAP]]\n");
+        std::fprintf(stderr, "usage: bench_embed LAYOUT TARGET LANDMARKS WORK [ALGORITHM [GAP]]\n");
         return 2;
     }
     Arguments arguments{words[1], words[2], words[3], std::strtoull(words[4], nullptr, 10), {}, {}};

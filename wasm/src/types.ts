@@ -131,13 +131,7 @@ export interface TemplateLayout {
  * (schreiner). Branch and bound looks for the best of all orders, and proves how good it is among
  * them. The exact method looks for the best embedding of all, and proves how good it is among all.
  */
-export type Algorithm =
-    | "greedy"
-    | "praun"
-    | "kraevoy"
-    | "schreiner"
-    | "branch-and-bound"
-    | "exact";
+export type Algorithm = "greedy" | "praun" | "kraevoy" | "schreiner" | "branch-and-bound" | "exact";
 
 /**
  * How paths run within their homotopy classes. `even`: crossing the target's edges at even distances,
