@@ -217,9 +217,10 @@ bool LandmarkDoubts::run(WorkBudget& budget)
         const bool found =
             outcome == Solver::Outcome::improved && solver_->incumbent_cost() <= threshold_;
         // A tie would need other perturbations: not worth it for a doubt.
-        const bool ended = outcome == Solver::Outcome::finished ||
-                           outcome == Solver::Outcome::tied ||
-                           solver_->lower_bound() > threshold_ || work_ >= work_limit_;
+        const bool ended =
+            outcome == Solver::Outcome::finished || outcome == Solver::Outcome::tied ||
+            work_ >= work_limit_ ||
+            (outcome != Solver::Outcome::running && solver_->lower_bound() > threshold_);
         if (found) {
             take_down(solver_->incumbent_cost());
         } else if (ended) {

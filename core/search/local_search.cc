@@ -16,11 +16,12 @@ constexpr std::uint64_t kInsertionWork = 4;
 }  // namespace
 
 LocalSearch::LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
-                         std::vector<Index> root_walks)
+                         std::vector<Index> root_walks, std::uint64_t max_work)
     : embedding_(embedding),
       oracle_(oracle),
       incumbent_(incumbent),
       root_walks_(std::move(root_walks)),
+      max_work_(max_work),
       current_(incumbent.walks()),
       current_cost_(incumbent.cost())
 {
@@ -114,6 +115,10 @@ LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
 {
     for (;;) {
         if (!in_trial_) {
+            // Between orders only: no search of the oracle is left unfinished.
+            if (work_ >= max_work_) {
+                return Outcome::finished;
+            }
             if (next_move_ < moves_.size()) {
                 begin_trial(moves_[next_move_++]);
             } else if (!begin_kick()) {
@@ -126,7 +131,9 @@ LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
                 rest_bound_ += pool.cost(root_walks_[trial_[i]]);
             }
         }
+        const std::uint64_t before = budget.spent();
         const Outcome outcome = evaluate(budget);
+        work_ += budget.spent() - before;
         if (outcome == Outcome::running || outcome == Outcome::tied) {
             return outcome;
         }

@@ -28,9 +28,9 @@ public:
     };
 
     /// Keeps references. The incumbent exists, and `root_walks` are the unconstrained paths per
-    /// layout edge. Leaves `embedding` in any state.
+    /// layout edge. Begins no order after `max_work` units. Leaves `embedding` in any state.
     LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
-                std::vector<Index> root_walks);
+                std::vector<Index> root_walks, std::uint64_t max_work);
 
     Outcome run(WorkBudget& budget);
 
@@ -51,6 +51,8 @@ private:
     PathOracle& oracle_;
     Incumbent& incumbent_;
     std::vector<Index> root_walks_;
+    std::uint64_t max_work_;
+    std::uint64_t work_ = 0;
 
     std::vector<Index> current_;  // walks in order: what moves start from
     Length current_cost_ = 0;

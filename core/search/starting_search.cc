@@ -77,8 +77,8 @@ Solver::Outcome StartingSearch::take_greedy_embedding()
     }
     stage_ = wants_local_search_ ? Stage::local_search : Stage::finished;
     if (wants_local_search_) {
-        local_search_ = std::make_unique<LocalSearch>(space_.embedding, space_.oracle,
-                                                      space_.incumbent, root_walks_);
+        local_search_ = std::make_unique<LocalSearch>(
+            space_.embedding, space_.oracle, space_.incumbent, root_walks_, kMaxLocalSearchWork);
     } else {
         space_.embedding.go_to({});
     }
@@ -89,12 +89,7 @@ Solver::Outcome StartingSearch::run_local_search(WorkBudget& budget)
 {
     const Length cost = space_.incumbent.cost();
     const double gap = static_cast<double>(cost - root_bound_) / static_cast<double>(cost);
-    auto outcome = LocalSearch::Outcome::finished;
-    if (gap > gap_ && local_search_work_ < kMaxLocalSearchWork) {
-        const std::uint64_t before = budget.spent();
-        outcome = local_search_->run(budget);
-        local_search_work_ += budget.spent() - before;
-    }
+    const auto outcome = gap > gap_ ? local_search_->run(budget) : LocalSearch::Outcome::finished;
     switch (outcome) {
         case LocalSearch::Outcome::running:
             return Solver::Outcome::running;

@@ -45,7 +45,6 @@ private:
     Stage stage_ = Stage::greedy;
     GreedySearch greedy_;
     std::unique_ptr<LocalSearch> local_search_;
-    std::uint64_t local_search_work_ = 0;
     std::vector<Index> root_walks_;
     Length root_bound_ = 0;
 };

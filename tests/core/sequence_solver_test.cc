@@ -101,6 +101,48 @@ TEST(SequenceSolver, slices_change_neither_what_happens_nor_when)
     }
 }
 
+/// Local search from the embedding of plain greedy insertion.
+struct LocalSearchGround {
+    LocalSearchGround(const EmbeddingProblem& problem, std::uint64_t max_work)
+        : ground(problem, 1),
+          pool(ground.strands),
+          embedding(ground.strands, pool),
+          oracle(embedding, ground.search)
+    {
+        GreedySearch greedy(problem, ground.strands, ground.search);
+        GreedySearch::Outcome outcome = GreedySearch::Outcome::running;
+        while (outcome != GreedySearch::Outcome::complete) {
+            outcome = greedy.run();
+            if (outcome == GreedySearch::Outcome::failed) {
+                ADD_FAILURE() << "no embedding to begin with";
+                return;
+            }
+        }
+        std::vector<Index> walks;
+        for (const Index e : ground.strands.insertion_order()) {
+            walks.push_back(pool.add(e, ground.strands.darts(e)));
+        }
+        while (!ground.strands.insertion_order().empty()) {
+            ground.strands.undo();
+        }
+        WorkBudget budget;
+        for (Index e = 0; e < walks.size(); ++e) {
+            root_walks.push_back(oracle.find(e, kInfiniteLength, budget).walk);
+        }
+        embedding.go_to(walks);
+        EXPECT_EQ(incumbent.offer(embedding), Incumbent::Outcome::accepted);
+        search.emplace(embedding, oracle, incumbent, root_walks, max_work);
+    }
+
+    test::SearchGround ground;
+    WalkPool pool;
+    PartialEmbedding embedding;
+    PathOracle oracle;
+    std::vector<Index> root_walks;
+    Incumbent incumbent;
+    std::optional<LocalSearch> search;
+};
+
 TEST(SequenceSolver, local_search_alone_comes_close_to_the_best_insertion_sequence)
 {
     int improved = 0;
@@ -113,45 +155,21 @@ TEST(SequenceSolver, local_search_alone_comes_close_to_the_best_insertion_sequen
         SCOPED_TRACE(instance.name);
         WholeSearch run(instance.problem, exact());
         run.finish();
-        // Without tolerance the incumbents before the first state of branch and bound are those of
-        // greedy and local search.
-        test::SearchGround ground(instance.problem, 1);
-        GreedySearch greedy(instance.problem, ground.strands, ground.search);
-        GreedySearch::Outcome outcome = GreedySearch::Outcome::running;
-        while (outcome != GreedySearch::Outcome::complete) {
-            outcome = greedy.run();
-            ASSERT_NE(outcome, GreedySearch::Outcome::failed);
-        }
-        WalkPool pool(ground.strands);
-        std::vector<Index> walks;
-        for (const Index e : ground.strands.insertion_order()) {
-            walks.push_back(pool.add(e, ground.strands.darts(e)));
-        }
-        while (!ground.strands.insertion_order().empty()) {
-            ground.strands.undo();
-        }
-        PartialEmbedding embedding(ground.strands, pool);
-        PathOracle oracle(embedding, ground.search);
-        std::vector<Index> root_walks;
-        WorkBudget budget;
-        for (Index e = 0; e < walks.size(); ++e) {
-            root_walks.push_back(oracle.find(e, kInfiniteLength, budget).walk);
-        }
-        Incumbent incumbent;
-        embedding.go_to(walks);
-        ASSERT_EQ(incumbent.offer(embedding), Incumbent::Outcome::accepted);
-        const Length start = incumbent.cost();
-        LocalSearch search(embedding, oracle, incumbent, root_walks);
+        LocalSearchGround local(instance.problem, UINT64_MAX);
+        ASSERT_TRUE(local.search);
+        const Length start = local.incumbent.cost();
         Length cost = start;
+        WorkBudget budget;
         for (;;) {
-            const auto step = search.run(budget);
+            const auto step = local.search->run(budget);
             if (step == LocalSearch::Outcome::finished) {
                 break;
             }
             ASSERT_EQ(step, LocalSearch::Outcome::improved);
-            EXPECT_LT(incumbent.cost(), cost);
-            cost = incumbent.cost();
-            test::expect_strands(instance.problem, ground.graph, incumbent.weak_embedding());
+            EXPECT_LT(local.incumbent.cost(), cost);
+            cost = local.incumbent.cost();
+            test::expect_strands(instance.problem, local.ground.graph,
+                                 local.incumbent.weak_embedding());
         }
         EXPECT_GE(cost, run.solver.incumbent_cost());
         ++count;
@@ -160,6 +178,44 @@ TEST(SequenceSolver, local_search_alone_comes_close_to_the_best_insertion_sequen
     }
     EXPECT_GT(improved, count / 4);
     EXPECT_GT(best, count / 2);
+}
+
+TEST(SequenceSolver, local_search_ends_at_the_same_place_however_it_is_sliced)
+{
+    int cut_short = 0;
+    for (const Instance& instance : random_instances(117, 20)) {
+        SCOPED_TRACE(instance.name);
+        const auto run = [&](std::uint64_t max_work, std::uint64_t slice) {
+            LocalSearchGround local(instance.problem, max_work);
+            std::uint64_t work = 0;
+            for (auto outcome = LocalSearch::Outcome::running;
+                 outcome != LocalSearch::Outcome::finished;) {
+                WorkBudget budget(slice);
+                outcome = local.search->run(budget);
+                work += budget.spent();
+                if (outcome == LocalSearch::Outcome::tied) {
+                    ADD_FAILURE() << "a tie";
+                    break;
+                }
+            }
+            // Nothing is left of a search that was cut short: the oracle answers what it is asked.
+            local.embedding.go_to({});
+            const std::uint64_t expansions = local.ground.search.expansion_count();
+            WorkBudget budget;
+            for (Index e = 0; e < local.root_walks.size(); ++e) {
+                EXPECT_EQ(local.oracle.find(e, kInfiniteLength, budget).walk, local.root_walks[e]);
+            }
+            EXPECT_EQ(local.ground.search.expansion_count(), expansions);
+            return std::tuple(work, expansions, local.incumbent.cost());
+        };
+        const auto whole = run(UINT64_MAX, UINT64_MAX);
+        const std::uint64_t half = std::get<0>(whole) / 2;
+        const auto cut = run(half, UINT64_MAX);
+        cut_short += std::get<0>(cut) < std::get<0>(whole) ? 1 : 0;
+        EXPECT_EQ(run(half, 1), cut);
+        EXPECT_EQ(run(half, 17), cut);
+    }
+    EXPECT_GT(cut_short, 5);
 }
 
 }  // namespace
