@@ -11,8 +11,8 @@ constexpr double kActivityDecay = 0.95;
 constexpr double kMaxActivity = 1e100;
 constexpr std::uint64_t kRestartUnit = 64;
 constexpr Index kGoodDistance = 3;  // learned clauses of few blocks are kept
-// Propagations per unit of work: an expanded node of a path search takes about as long.
-constexpr std::uint64_t kPropagationsPerWork = 4;
+// Clauses looked at per unit of work: an expanded node of a path search takes about as long.
+constexpr std::uint64_t kClausesPerWork = 4;
 
 /// 1 1 2 1 1 2 4 ...: how long the i-th run between restarts is (Luby, Sinclair, Zuckerman 1993).
 std::uint64_t luby(std::uint64_t i)
@@ -120,6 +120,7 @@ SatSolver::Clause SatSolver::propagate()
                 watches[kept++] = watch;
                 continue;
             }
+            ++uncharged_;
             Literal* of_clause = literals(watch.clause);
             if (of_clause[0] == falsified) {
                 std::swap(of_clause[0], of_clause[1]);
@@ -198,6 +199,7 @@ Index SatSolver::learn(Clause conflict)
     std::size_t place = trail_.size();
     Literal current = kNone;
     do {
+        ++uncharged_;
         const Literal* of_clause = literals(conflict);
         for (Index k = 0; k < size(conflict); ++k) {
             const Literal l = of_clause[k];
@@ -390,8 +392,8 @@ SatSolver::Outcome SatSolver::run(WorkBudget& budget)
     }
     for (;;) {
         const Clause conflict = propagate();
-        budget.charge(uncharged_ / kPropagationsPerWork);
-        uncharged_ %= kPropagationsPerWork;
+        budget.charge(uncharged_ / kClausesPerWork);
+        uncharged_ %= kClausesPerWork;
         if (conflict != kNone) {
             ++conflict_count_;
             ++restart_conflicts_;

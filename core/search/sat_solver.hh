@@ -114,7 +114,7 @@ private:
 
     std::uint64_t conflicts_left_ = UINT64_MAX;
     std::uint64_t conflict_count_ = 0;
-    std::uint64_t uncharged_ = 0;  // propagations
+    std::uint64_t uncharged_ = 0;  // literals and clauses looked at
     std::uint64_t restart_conflicts_ = 0;
     std::uint64_t restarts_ = 0;
     std::uint64_t forget_at_ = 4000;
