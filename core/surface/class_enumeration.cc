@@ -21,7 +21,6 @@ ClassEnumeration::ClassEnumeration(const Strands& strands, DistanceFields& field
 void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length limit)
 {
     const Layout& layout = strands_.layout();
-    const PathGraph& graph = strands_.graph();
     cuts_ = &cuts;
     layout_edge_ = layout_edge;
     limit_ = limit;
@@ -46,15 +45,9 @@ void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length li
         is_met_[edge] = false;
     }
     met_.clear();
-    const Index sector = strands_.sector(2 * layout_edge);
-    for (Index d = graph.first_dart(start_); d < graph.first_dart(start_ + 1); ++d) {
-        const Index strands = strands_.strand_count(start_, d);
-        for (Index slot = 0; slot <= strands; ++slot) {
-            if (strands_.region(start_, d, slot) == sector) {
-                relax(kNone, d, slot, strands);
-            }
-        }
-    }
+    strands_.for_each_way_out(2 * layout_edge, [&](Index dart, Index slot, Index strands) {
+        relax(kNone, dart, slot, strands);
+    });
 }
 
 Length ClassEnumeration::frontier() const

@@ -54,18 +54,10 @@ void CutSurfaceSearch::start(Index layout_edge, Length limit)
         std::fill(met_numbers_.begin(), met_numbers_.end(), 0);
         number_ = 1;
     }
-
-    const PathGraph& graph = strands_.graph();
-    const Index sector = strands_.sector(2 * layout_edge);
-    for (Index d = graph.first_dart(start_); d < graph.first_dart(start_ + 1); ++d) {
-        const Index strands = strands_.strand_count(start_, d);
-        for (Index slot = 0; slot <= strands; ++slot) {
-            if (strands_.region(start_, d, slot) == sector) {
-                weights_.empty() ? relax<false>(kNone, start_, d, slot, strands, 0)
-                                 : relax<true>(kNone, start_, d, slot, strands, 0);
-            }
-        }
-    }
+    strands_.for_each_way_out(2 * layout_edge, [&](Index dart, Index slot, Index strands) {
+        weights_.empty() ? relax<false>(kNone, start_, dart, slot, strands, 0)
+                         : relax<true>(kNone, start_, dart, slot, strands, 0);
+    });
 }
 
 CutSurfaceSearch::Outcome CutSurfaceSearch::run(std::uint64_t max_expansions)

@@ -85,6 +85,21 @@ public:
     /// The sector at landmark tail(h) in which halfedge h of the layout has to leave, given the
     /// edges embedded there.
     Index sector(Index layout_halfedge) const;
+    /// Calls visit(dart, slot, strands over the dart's edge) for every way out of that sector.
+    template <typename Visit>
+    void for_each_way_out(Index layout_halfedge, const Visit& visit) const
+    {
+        const Index start = landmark_node(layout().tail(layout_halfedge));
+        const Index own_sector = sector(layout_halfedge);
+        for (Index d = graph().first_dart(start); d < graph().first_dart(start + 1); ++d) {
+            const Index strands = strand_count(start, d);
+            for (Index slot = 0; slot <= strands; ++slot) {
+                if (region(start, d, slot) == own_sector) {
+                    visit(d, slot, strands);
+                }
+            }
+        }
+    }
 
     /// A walk with its slots in the present cut surface.
     struct Trace {
