@@ -34,7 +34,7 @@ constexpr const char* kUsage =
     "    prints edge lengths, angles and valences of members, and of mesh files beside them\n"
     "generate_shapes --check [--class NAME] [--others N] [--doubts] [--vertices N] [--seed N]\n"
     "    embeds the template layout of every member in the next N members of its class (all), by\n"
-    "    branch and bound and by the heuristics; with --doubts, also the template's mirror image\n"
+    "    the exact method and by the heuristics; with --doubts, also the template's mirror image\n"
     "    and with two landmarks exchanged, and counts what is said of these. 2000 vertices each\n"
     "    unless told otherwise. Takes an hour for everything\n";
 
