@@ -11,7 +11,7 @@ namespace {
 
 enum class Ears { pointed, hanging, round, long_upright };
 
-struct Animal {
+struct Quadruped {
     const char* name;
     /// Trunk: length, radius at chest, belly and rump, and how narrow it is sideways.
     double length;
@@ -46,7 +46,7 @@ struct Animal {
     double head_turn;
 };
 
-const std::array<Animal, 10> kAnimals{{
+const std::array<Quadruped, 10> kQuadrupeds{{
     {"cat", 1.0, 0.2, 0.19, 0.2,           0.84, 0.52, 0.1, 0.055, 0.062, 0.2,  48, 0.125,
      0.185, 0.1, 0.1, 4,    Ears::pointed, 0.17, 0.95, 50,  70,    0.052, 0.04, 10, 18},
     {"dog", 1.0,  0.235, 0.185, 0.19,          0.82, 0.66, 0.11, 0.052, 0.066, 0.26,  52, 0.13,
@@ -72,7 +72,7 @@ const std::array<Animal, 10> kAnimals{{
 
 Figure animal_figure(Index member)
 {
-    const Animal& animal = kAnimals[member];
+    const Quadruped& animal = kQuadrupeds[member];
     Figure figure;
     Solid& solid = figure.solid;
     const double half = 0.5 * animal.length - 0.1;
@@ -253,7 +253,7 @@ Figure animal_figure(Index member)
 ShapeClass quadrupeds()
 {
     ShapeClass result{"quadruped", "Four-legged animals", 0, 0, {}, animal_figure};
-    for (const Animal& animal : kAnimals) {
+    for (const Quadruped& animal : kQuadrupeds) {
         result.members.emplace_back(animal.name);
     }
     return result;
