@@ -12,7 +12,7 @@ constexpr double kMaxActivity = 1e100;
 constexpr std::uint64_t kRestartUnit = 64;
 constexpr Index kGoodDistance = 3;  // learned clauses of few blocks are kept
 // Clauses looked at per unit of work: an expanded node of a path search takes about as long.
-constexpr std::uint64_t kClausesPerWork = 4;
+constexpr std::uint64_t kClausesPerWork = 12;
 
 /// 1 1 2 1 1 2 4 ...: how long the i-th run between restarts is (Luby, Sinclair, Zuckerman 1993).
 std::uint64_t luby(std::uint64_t i)
