@@ -1,6 +1,7 @@
 #include "search/path_oracle.hh"
 
 #include <algorithm>
+#include <cassert>
 
 namespace layout_embedding {
 
@@ -84,6 +85,7 @@ PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, WorkBudget&
         searching_ = layout_edge;
         search_.begin(layout_edge, limit);
     }
+    assert(searching_ == layout_edge);
     const std::uint64_t before = search_.expansion_count();
     const auto outcome = search_.run(budget.left());
     budget.charge(search_.expansion_count() - before);
