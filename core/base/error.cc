@@ -10,7 +10,7 @@ const std::vector<ErrorInfo>& all_error_infos()
         {fileEmpty, "fileEmpty", "the file is missing or holds nothing",
          "check the path and export the file again"},
         {unknownFormat, "unknownFormat", "the file is not in a format that can be read",
-         "save it as OBJ or OFF"},
+         "save it as OBJ, OFF, PLY, STL or GLB"},
         {syntaxError, "syntaxError", "a line of the file cannot be understood",
          "correct the line or export the file again"},
         {indexOutOfRange, "indexOutOfRange", "a face refers to a vertex that does not exist",
@@ -76,6 +76,12 @@ const std::vector<ErrorInfo>& all_error_infos()
          "add landmarks"},
         {templateNotReached, "templateNotReached",
          "the target could not be collapsed onto its landmarks alone", "add or move landmarks"},
+        {parametrisationFailed, "parametrisationFailed",
+         "a patch could not be mapped to the plane without flipped triangles",
+         "add layout edges that divide the patch"},
+        {landmarkNeedsTarget, "landmarkNeedsTarget",
+         "landmarks are given as points, which say nothing without a target",
+         "load the target first"},
     };
     return table;
 }

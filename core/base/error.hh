@@ -51,6 +51,10 @@ enum class ErrorCode : std::uint32_t {
     // Template layouts.
     tooFewLandmarksForSurface,
     templateNotReached,
+    // Patches.
+    parametrisationFailed,
+    // Landmarks as points.
+    landmarkNeedsTarget,
 };
 
 /// What a user can read about one error code.

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "base/types.hh"
+
+namespace layout_embedding {
+
+/// The corners of a convex polygon in the plane, counter-clockwise; side i runs from corner i to
+/// the next one.
+using Domain = std::vector<Vec2>;
+
+/// The regular polygon with n >= 3 corners on the unit circle, the first one at (1, 0). Computed
+/// with + - * / alone: the same bits on every platform.
+Domain regular_polygon(Index n);
+
+/// The rectangle with the corners (0, 0), (width, 0), (width, height), (0, height).
+Domain rectangle(double width, double height);
+
+double area(const Domain& domain);
+
+}  // namespace layout_embedding
