@@ -1,6 +1,8 @@
 #include "layout/landmark_reader.hh"
 
 #include "base/line_scanner.hh"
+#include "layout/landmark_json.hh"
+#include "layout/landmark_points.hh"
 
 namespace layout_embedding {
 namespace {
@@ -16,11 +18,39 @@ double size_of(std::span<const Vec3> positions)
     return (high - low).maxCoeff();
 }
 
+Result<Landmarks> read_points(std::string_view bytes, std::string_view subject,
+                              std::span<const Vec3> positions)
+{
+    auto points = read_picked_points(bytes, subject);
+    if (!points) {
+        return points.error();
+    }
+    if (points->points.empty()) {
+        return make_error(ErrorCode::fileEmpty, std::string(subject) + " holds no landmark");
+    }
+    auto placed = place_landmarks(*points, positions, subject);
+    if (!placed) {
+        return placed.error();
+    }
+    return Landmarks{std::move(placed->vertices), std::move(points->names),
+                     std::move(placed->notes)};
+}
+
 }  // namespace
 
 Result<Landmarks> read_landmarks(std::string_view bytes, std::string_view subject,
                                  std::span<const Vec3> positions)
 {
+    const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+    if (start != std::string_view::npos) {
+        const char first = bytes[start];
+        if (first == '{' || first == '[') {
+            return read_landmark_json(bytes, subject, positions);
+        }
+        if (first == '<') {
+            return read_points(bytes, subject, positions);
+        }
+    }
     constexpr double kTolerance = 1e-4;
     const double tolerance = positions.empty() ? 0 : kTolerance * size_of(positions);
     Landmarks landmarks;

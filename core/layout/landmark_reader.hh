@@ -13,6 +13,8 @@ namespace layout_embedding {
 struct Landmarks {
     /// Target vertex ids, in the order of the file; not yet compared with any target.
     std::vector<Index> vertices;
+    /// Their names, "" for none; no list at all in formats without names.
+    std::vector<std::string> names;
     /// What the user should know though it is no error, one sentence each.
     std::vector<std::string> notes;
 };
@@ -20,8 +22,11 @@ struct Landmarks {
 /// Reads a landmark file: per line one 0-based target vertex id, or `id x y z` (.vts), of which the
 /// id counts. `#` starts a comment; blank lines do not count. Where `positions`, the target's, are
 /// given, ids that lie elsewhere than their x y z says (by more than 1e-4 of the target's size) are
-/// noted. `subject` begins the messages, for example "the landmark file spot.txt". Errors:
-/// fileEmpty, and with the line: syntaxError, landmarkOutOfRange (negative, or no 32-bit id).
+/// noted. Files that begin with { or [ are JSON (layout/landmark_json.hh), with < picked points of
+/// MeshLab (.pp); points without an id go to the nearest vertices (layout/landmark_points.hh).
+/// `subject` begins the messages, for example "the landmark file spot.txt". Errors: fileEmpty, and
+/// with the place: syntaxError, landmarkOutOfRange (negative, or no 32-bit id); for points
+/// landmarkNeedsTarget, landmarkCount and nonFinitePosition.
 Result<Landmarks> read_landmarks(std::string_view bytes, std::string_view subject,
                                  std::span<const Vec3> positions = {});
 

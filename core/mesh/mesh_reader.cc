@@ -3,8 +3,11 @@
 #include <string>
 
 #include "base/line_scanner.hh"
+#include "mesh/glb_reader.hh"
 #include "mesh/obj_reader.hh"
 #include "mesh/off_reader.hh"
+#include "mesh/ply_reader.hh"
+#include "mesh/stl_reader.hh"
 
 namespace layout_embedding {
 namespace {
@@ -26,10 +29,37 @@ bool has_extension(std::string_view name, std::string_view extension)
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// OFF if the first line that says something begins with an OFF header, OBJ if any line begins
-/// with a vertex or a face.
+constexpr std::string_view kGlbMagic = "glTF";
+
+/// How the name of a format is written.
+std::string name_of(MeshFormat format)
+{
+    switch (format) {
+        case MeshFormat::obj:
+            return "OBJ";
+        case MeshFormat::off:
+            return "OFF";
+        case MeshFormat::ply:
+            return "PLY";
+        case MeshFormat::stl:
+            return "STL";
+        case MeshFormat::glb:
+            return "GLB";
+        default:
+            return "a mesh";
+    }
+}
+
+/// GLB by its first bytes; binary STL by its length; PLY, text STL and OFF if the first line that
+/// says something begins with their word; OBJ if any line begins with a vertex or a face.
 MeshFormat format_of_content(std::string_view bytes)
 {
+    if (bytes.substr(0, kGlbMagic.size()) == kGlbMagic) {
+        return MeshFormat::glb;
+    }
+    if (is_binary_stl(bytes)) {
+        return MeshFormat::stl;
+    }
     LineScanner lines(bytes);
     bool first = true;
     while (lines.next()) {
@@ -40,6 +70,9 @@ MeshFormat format_of_content(std::string_view bytes)
         }
         if (first && keyword.size() >= 3 && keyword.substr(keyword.size() - 3) == "OFF") {
             return MeshFormat::off;
+        }
+        if (first && (keyword == "ply" || keyword == "solid")) {
+            return keyword == "ply" ? MeshFormat::ply : MeshFormat::stl;
         }
         first = false;
         if (keyword == "v" || keyword == "f") {
@@ -53,10 +86,17 @@ MeshFormat format_of_content(std::string_view bytes)
 
 MeshFormat format_of_file_name(std::string_view name)
 {
-    if (has_extension(name, ".obj")) {
-        return MeshFormat::obj;
+    using enum MeshFormat;
+    for (const auto& [extension, format] : {std::pair<std::string_view, MeshFormat>{".obj", obj},
+                                            {".off", off},
+                                            {".ply", ply},
+                                            {".stl", stl},
+                                            {".glb", glb}}) {
+        if (has_extension(name, extension)) {
+            return format;
+        }
     }
-    return has_extension(name, ".off") ? MeshFormat::off : MeshFormat::detect;
+    return detect;
 }
 
 Result<PolygonMesh> read_mesh(std::string_view bytes, MeshFormat format, std::string_view subject)
@@ -71,16 +111,26 @@ Result<PolygonMesh> read_mesh(std::string_view bytes, MeshFormat format, std::st
     if (content == MeshFormat::detect) {
         return make_error(ErrorCode::unknownFormat,
                           std::string(subject) +
-                              " is neither OBJ nor OFF: no line of it is a "
-                              "vertex, a face or an OFF header");
+                              " is neither OBJ, OFF, PLY, STL nor GLB: no line of it is a "
+                              "vertex, a face or a header");
     }
     if (format != MeshFormat::detect && format != content) {
-        return make_error(ErrorCode::unknownFormat,
-                          std::string(subject) + (format == MeshFormat::obj
-                                                      ? " is called OBJ but holds OFF"
-                                                      : " is called OFF but has no OFF header"));
+        return make_error(ErrorCode::unknownFormat, std::string(subject) + " is called " +
+                                                        name_of(format) + " but holds " +
+                                                        name_of(content));
     }
-    return content == MeshFormat::off ? read_off(bytes, subject) : read_obj(bytes, subject);
+    switch (content) {
+        case MeshFormat::off:
+            return read_off(bytes, subject);
+        case MeshFormat::ply:
+            return read_ply(bytes, subject);
+        case MeshFormat::stl:
+            return read_stl(bytes, subject);
+        case MeshFormat::glb:
+            return read_glb(bytes, subject);
+        default:
+            return read_obj(bytes, subject);
+    }
 }
 
 }  // namespace layout_embedding

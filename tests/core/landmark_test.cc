@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/random.hh"
+#include "layout/landmark_json.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/nearest_points.hh"
 #include "layout/proximity.hh"
@@ -88,6 +89,100 @@ TEST(LandmarkReader, errors_name_the_line)
     expect_error("1\n-2\n", ErrorCode::landmarkOutOfRange, "id -2 in line 2");
     expect_error("4294967295\n", ErrorCode::landmarkOutOfRange, "line 1");
     expect_error("99999999999999999999\n", ErrorCode::syntaxError, "line 1");
+}
+
+TEST(LandmarkReader, reads_json_with_names)
+{
+    const PolygonMesh cube = zoo::cube();
+    const std::vector<Index> ids{5, 0, 3};
+    const std::vector<std::string> names{"nose", "", "\"tail\""};
+    for (const std::span<const Vec3> positions :
+         {std::span<const Vec3>(), std::span<const Vec3>(cube.positions)}) {
+        const auto read =
+            read_landmarks(write_landmark_json(ids, names, positions), "it", positions);
+        ASSERT_TRUE(read.ok()) << read.error().message;
+        EXPECT_EQ(read->vertices, ids);
+        EXPECT_EQ(read->names, names);
+        EXPECT_TRUE(read->notes.empty());
+    }
+    EXPECT_EQ(read_landmarks(" [7, 1, 2]", "it")->vertices, (std::vector<Index>{7, 1, 2}));
+    // A position stands in for a vertex.
+    const std::string text = R"({"landmarks":[{"name":"a","position":[1,1,0.9]},{"vertex":0}]})";
+    EXPECT_EQ(read_landmarks(text, "it").error().code, ErrorCode::landmarkNeedsTarget);
+    const auto placed = read_landmarks(text, "it", cube.positions);
+    ASSERT_TRUE(placed.ok());
+    EXPECT_GT(cube.positions[placed->vertices[0]].minCoeff(), 0);
+    EXPECT_EQ(placed->vertices[1], 0U);
+    for (const std::string wrong :
+         {"{}", "[]", "[-1]", "[0.5]", "[{}]", "{\"landmarks\":3}", "["}) {
+        EXPECT_FALSE(read_landmarks(wrong, "it", cube.positions).ok()) << wrong;
+    }
+}
+
+TEST(LandmarkReader, reads_picked_points_of_meshlab)
+{
+    const PolygonMesh mesh = zoo::icosphere(2);
+    std::string text =
+        "<!DOCTYPE PickedPoints>\n<PickedPoints>\n <DocumentData>\n"
+        "  <templateName name=\"x\"/>\n </DocumentData>\n";
+    for (const Index v : {17U, 3U, 99U}) {
+        const Vec3 p = mesh.positions[v] * 1.01;
+        text += " <point x=\"" + std::to_string(p.x()) + "\" active=\"1\" y=\"" +
+                std::to_string(p.y()) + "\" z='" + std::to_string(p.z()) + "' name=\"a &amp; " +
+                std::to_string(v) + "\"/>\n";
+    }
+    text += " <point x=\"0\" y=\"0\" z=\"0\" active=\"0\" name=\"off\"/>\n</PickedPoints>\n";
+    const auto read = read_landmarks(text, "it", mesh.positions);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_EQ(read->vertices, (std::vector<Index>{17, 3, 99}));
+    EXPECT_EQ(read->names[1], "a & 3");
+    EXPECT_TRUE(read->notes.empty());
+    EXPECT_EQ(read_landmarks(text, "it").error().code, ErrorCode::landmarkNeedsTarget);
+    const auto error = [&](const std::string& wrong) {
+        return read_landmarks(wrong, "it", mesh.positions).error().code;
+    };
+    EXPECT_EQ(error("<PickedPoints></PickedPoints>"), ErrorCode::fileEmpty);
+    EXPECT_EQ(error("<point x=\"1\" y=\"2\"/>"), ErrorCode::syntaxError);
+    EXPECT_EQ(error("<point x=\"1\" y=\"2\" z=\"a\"/>"), ErrorCode::syntaxError);
+    EXPECT_EQ(error("<point x=\"1\" y=\"2"), ErrorCode::syntaxError);
+}
+
+TEST(LandmarkReader, reads_markups_of_slicer_in_either_convention)
+{
+    const PolygonMesh mesh = zoo::bumpy_sphere(2, 4);
+    const std::vector<Index> ids{20, 4, 77, 33};
+    for (const double sign : {1.0, -1.0}) {
+        std::string text = R"({"markups":[{"type":"Fiducial","coordinateSystem":"LPS",)"
+                           R"("controlPoints":[{"label":"none","positionStatus":"undefined",)"
+                           R"("position":[0,0,0]})";
+        for (const Index v : ids) {
+            const Vec3& p = mesh.positions[v];
+            text += R"(,{"id":"1","label":"F-)" + std::to_string(v) + R"(","position":[)" +
+                    std::to_string(sign * p.x()) + "," + std::to_string(sign * p.y()) + "," +
+                    std::to_string(p.z()) + R"(],"positionStatus":"defined"})";
+        }
+        text += "]}]}";
+        const auto read = read_landmarks(text, "it", mesh.positions);
+        ASSERT_TRUE(read.ok()) << read.error().message;
+        EXPECT_EQ(read->vertices, ids);
+        EXPECT_EQ(read->names[0], "F-20");
+        EXPECT_EQ(read->notes.size(), sign < 0 ? 1U : 0U);
+    }
+}
+
+TEST(LandmarkReader, two_points_never_share_a_vertex_and_far_ones_are_noted)
+{
+    const PolygonMesh mesh = zoo::icosphere(1);
+    std::string text = R"({"landmarks":[)";
+    for (int i = 0; i < 12; ++i) {
+        text += std::string(i == 0 ? "" : ",") + R"({"position":[0,0,5]})";
+    }
+    const auto read = read_landmarks(text + "]}", "it", mesh.positions);
+    ASSERT_TRUE(read.ok());
+    std::vector<Index> sorted = read->vertices;
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_EQ(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    EXPECT_EQ(read->notes.size(), 1U);
 }
 
 TEST(NearestPoints, agree_with_sorting_all_distances)

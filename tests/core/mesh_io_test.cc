@@ -181,12 +181,10 @@ TEST(MeshReader, formats_are_told_apart)
     EXPECT_EQ(format_of_file_name("b.off.txt"), MeshFormat::detect);
     expect_error("", ErrorCode::fileEmpty, "holds nothing");
     expect_error(" \r\n\t\n", ErrorCode::fileEmpty, "holds nothing");
-    expect_error("solid cube\nfacet normal 0 0 1\n", ErrorCode::unknownFormat,
-                 "neither OBJ nor OFF");
+    expect_error("cube\nfacet normal 0 0 1\n", ErrorCode::unknownFormat, "neither OBJ, OFF");
     expect_error(std::string("\x89PNG\r\n\x1a\n\0\0v", 11), ErrorCode::unknownFormat, "neither");
     expect_error(write_off(zoo::cube()), ErrorCode::unknownFormat, "holds OFF", MeshFormat::obj);
-    expect_error(write_obj(zoo::cube()), ErrorCode::unknownFormat, "no OFF header",
-                 MeshFormat::off);
+    expect_error(write_obj(zoo::cube()), ErrorCode::unknownFormat, "holds OBJ", MeshFormat::off);
 }
 
 TEST(RealMeshes, all_are_read_and_are_surfaces)
