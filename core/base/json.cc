@@ -111,12 +111,12 @@ private:
         }
         do {
             skip_blanks();
-            auto& [name, member] = value.members.emplace_back();
-            if (rest_.empty() || rest_.front() != '"' || !parse_string(name)) {
+            if (rest_.empty() || rest_.front() != '"' ||
+                !parse_string(value.names.emplace_back())) {
                 return false;
             }
             skip_blanks();
-            if (!take(":") || !parse_value(member, depth + 1)) {
+            if (!take(":") || !parse_value(value.members.emplace_back(), depth + 1)) {
                 return false;
             }
             skip_blanks();
@@ -214,12 +214,9 @@ private:
 
 const JsonValue* JsonValue::find(std::string_view name) const
 {
-    for (const auto& [key, member] : members) {
-        if (key == name) {
-            return &member;
-        }
-    }
-    return nullptr;
+    const auto place = std::find(names.begin(), names.end(), name);
+    return place == names.end() ? nullptr
+                                : &members[static_cast<std::size_t>(place - names.begin())];
 }
 
 bool JsonValue::is_whole(double most) const

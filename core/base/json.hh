@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "base/result.hh"
@@ -20,8 +19,9 @@ public:
     std::string string;
     /// Of an array.
     std::vector<JsonValue> items;
-    /// Of an object, in the order of the text.
-    std::vector<std::pair<std::string, JsonValue>> members;
+    /// Of an object, in the order of the text: names and values.
+    std::vector<std::string> names;
+    std::vector<JsonValue> members;
 
     bool is(Kind wanted) const { return kind == wanted; }
     /// The member of that name, the first of several; nullptr where there is none, or no object.

@@ -1,5 +1,6 @@
 #include "mesh/mesh_writer.hh"
 
+#include "base/bytes.hh"
 #include "base/number_text.hh"
 
 namespace layout_embedding {
@@ -67,6 +68,27 @@ std::string write_off(const PolygonMesh& mesh)
         append_ids(text, mesh.face(f), 0);
     }
     return text;
+}
+
+std::string write_ply(const PolygonMesh& mesh)
+{
+    std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(mesh.vertex_count()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                      std::to_string(mesh.face_count()) +
+                      "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const Vec3& position : mesh.positions) {
+        for (int axis = 0; axis < 3; ++axis) {
+            append_bytes(ply, position[axis]);
+        }
+    }
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        append_bytes(ply, static_cast<std::uint8_t>(mesh.face(f).size()));
+        for (const Index corner : mesh.face(f)) {
+            append_bytes(ply, static_cast<std::int32_t>(corner));
+        }
+    }
+    return ply;
 }
 
 }  // namespace layout_embedding

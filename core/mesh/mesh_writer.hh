@@ -27,4 +27,8 @@ std::string write_obj(const PolygonMesh& mesh, const ObjExtras& extras = {});
 /// `mesh` as ASCII OFF, with the same digits.
 std::string write_off(const PolygonMesh& mesh);
 
+/// `mesh` as binary PLY (little-endian, positions in double precision). Faces with more than 255
+/// corners cannot be written.
+std::string write_ply(const PolygonMesh& mesh);
+
 }  // namespace layout_embedding

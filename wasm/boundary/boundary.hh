@@ -61,6 +61,8 @@ struct TargetObject {
 
 struct LandmarksObject {
     std::vector<Index> landmarks;
+    /// Per landmark, "" for none; empty in formats without names.
+    std::vector<std::string> names;
     std::vector<std::string> notes;
 };
 

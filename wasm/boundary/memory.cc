@@ -1,7 +1,9 @@
 // Memory, errors, views and the version: what every other function of the boundary rests on.
 #include <cstdlib>
 
+#include "apps/quad_mesh.hh"
 #include "boundary/boundary.hh"
+#include "formats/reference_files.hh"
 
 namespace layout_embedding::boundary {
 
@@ -89,7 +91,8 @@ BOUNDARY_EXPORT(boundary_destroy) void boundary_destroy(std::uint32_t handle)
 {
     handles<MeshObject>().destroy(handle) || handles<LayoutObject>().destroy(handle) ||
         handles<TargetObject>().destroy(handle) || handles<LandmarksObject>().destroy(handle) ||
-        handles<JobObject>().destroy(handle) || handles<CheckObject>().destroy(handle);
+        handles<JobObject>().destroy(handle) || handles<CheckObject>().destroy(handle) ||
+        handles<ReferenceInput>().destroy(handle) || handles<QuadMesh>().destroy(handle);
 }
 
 /// Views the name of the last error's code.

@@ -144,6 +144,22 @@ BOUNDARY_EXPORT(boundary_mesh_write_obj) std::uint32_t boundary_mesh_write_obj(s
     });
 }
 
+BOUNDARY_EXPORT(boundary_mesh_write_off) std::uint32_t boundary_mesh_write_off(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_owned_view(write_off(mesh_object(mesh).mesh));
+        return 1U;
+    });
+}
+
+BOUNDARY_EXPORT(boundary_mesh_write_ply) std::uint32_t boundary_mesh_write_ply(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_owned_view(write_ply(mesh_object(mesh).mesh));
+        return 1U;
+    });
+}
+
 /// Makes a layout of a mesh, which it does not need any further.
 BOUNDARY_EXPORT(boundary_layout_create)
 std::uint32_t boundary_layout_create(std::uint32_t mesh, const char* subject,
@@ -224,7 +240,8 @@ std::uint32_t boundary_landmarks_read(const char* bytes, std::size_t size, const
         return add_or_fail<LandmarksObject>(
             read_landmarks({bytes, size}, {subject, subject_size}, positions),
             +[](Landmarks landmarks) {
-                return LandmarksObject{std::move(landmarks.vertices), std::move(landmarks.notes)};
+                return LandmarksObject{std::move(landmarks.vertices), std::move(landmarks.names),
+                                       std::move(landmarks.notes)};
             });
     });
 }
@@ -241,7 +258,7 @@ std::uint32_t boundary_landmarks_by_proximity(std::uint32_t layout, std::uint32_
                                    mesh_object(layout_mesh).mesh.positions,
                                    *handles<TargetObject>().get(target).target),
             +[](std::vector<Index> landmarks) {
-                return LandmarksObject{std::move(landmarks), {}};
+                return LandmarksObject{std::move(landmarks), {}, {}};
             });
     });
 }
@@ -254,6 +271,14 @@ std::uint32_t boundary_landmarks_ids(std::uint32_t landmarks)
         set_view(handles<LandmarksObject>().get(landmarks).landmarks);
         return 1U;
     });
+}
+
+/// Views the name of a landmark; 0 beyond the last one.
+BOUNDARY_EXPORT(boundary_landmarks_name)
+std::uint32_t boundary_landmarks_name(std::uint32_t landmarks, std::size_t place)
+{
+    return guarded(
+        0U, [&] { return view_note(handles<LandmarksObject>().get(landmarks).names, place); });
 }
 
 /// Views a note on landmarks; 0 beyond the last one.

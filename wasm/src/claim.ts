@@ -7,13 +7,8 @@ import type { EmbeddingClaim, Violation } from "./types.js";
 
 const none = 0xffff_ffff;
 
-export function checkClaim(
-    core: Core,
-    layoutMesh: Handle,
-    targetMesh: Handle,
-    landmarks: Uint32Array,
-    claim: EmbeddingClaim,
-): Violation[] {
+/** The claim inside the core; the caller destroys it. */
+export function claimInCore(core: Core, claim: EmbeddingClaim): Handle {
     const arrays = claimArrays(claim);
     const check = core.call("boundary_check_create");
     try {
@@ -55,6 +50,22 @@ export function checkClaim(
                 arrays.count,
             );
         });
+        return check;
+    } catch (reason) {
+        core.destroy(check);
+        throw reason;
+    }
+}
+
+export function checkClaim(
+    core: Core,
+    layoutMesh: Handle,
+    targetMesh: Handle,
+    landmarks: Uint32Array,
+    claim: EmbeddingClaim,
+): Violation[] {
+    const check = claimInCore(core, claim);
+    try {
         const count = core.withCopies((copy) =>
             core.count(
                 "boundary_check_run",

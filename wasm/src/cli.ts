@@ -3,6 +3,7 @@
 // output and an exit code. Node only.
 import { parseCommand, wantsJson } from "./cli/arguments.js";
 import { runCheck } from "./cli/check_command.js";
+import { runConvert } from "./cli/convert_command.js";
 import { runEmbed } from "./cli/embed_command.js";
 import { helpText } from "./cli/help.js";
 import { runLayout } from "./cli/layout_command.js";
@@ -25,6 +26,8 @@ async function run(args: string[]): Promise<Outcome> {
             return runCheck(command);
         case "layout":
             return runLayout(command);
+        case "convert":
+            return runConvert(command);
     }
 }
 

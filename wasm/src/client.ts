@@ -12,6 +12,8 @@ import type {
     EmbedProgress,
     EmbedResult,
     ExportedFiles,
+    ExportFormat,
+    ExportView,
     LandmarkInput,
     LandmarkOptions,
     LandmarksInfo,
@@ -20,6 +22,8 @@ import type {
     MeshInput,
     PathShape,
     ReshapeOptions,
+    QuadMesh,
+    QuadOptions,
     SolveOptions,
     TargetInfo,
     TemplateLayout,
@@ -248,6 +252,17 @@ class WorkerSession implements EmbeddingSession {
 
     exportFiles(): Promise<ExportedFiles> {
         return this.call("exportFiles", []) as Promise<ExportedFiles>;
+    }
+
+    exportAs(
+        formats: readonly ExportFormat[],
+        view: ExportView = {},
+    ): Promise<Record<string, Uint8Array>> {
+        return this.call("exportAs", [formats, view]) as Promise<Record<string, Uint8Array>>;
+    }
+
+    quads(options: QuadOptions = {}): Promise<QuadMesh> {
+        return this.call("quads", [options]) as Promise<QuadMesh>;
     }
 
     check(claim: EmbeddingClaim): Promise<Violation[]> {

@@ -17,6 +17,7 @@ import type {
 export { init, type InitOptions, type WasmSource } from "./loader.js";
 export { Session } from "./session.js";
 export { LayoutError, type ErrorInfo } from "./errors.js";
+export { readReferenceInput } from "./formats.js";
 export type { EmbeddingDocument, InputRecord, RefinedMapDocument } from "./files.js";
 export type * from "./types.js";
 

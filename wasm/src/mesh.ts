@@ -14,7 +14,7 @@ export interface LoadedMesh {
 }
 
 // In the order of the core's MeshFormat (core/mesh/mesh_reader.hh).
-const formats = ["detect", "obj", "off"];
+const formats = ["detect", "obj", "off", "ply", "stl", "glb"];
 
 /** Reads a mesh, and repairs it where asked to; validation comes later. */
 export function readMesh(
@@ -50,7 +50,7 @@ export function readFile(core: Core, subject: string, input: MeshFile): Handle {
     if (format < 0) {
         throw new LayoutError(
             "invalidOption",
-            `the format ${String(input.format)} of ${subject} is unknown; give obj or off.`,
+            `the format ${String(input.format)} of ${subject} is unknown; give obj, off, ply, stl or glb.`,
         );
     }
     return core.withCopies((copy) => {

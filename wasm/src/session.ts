@@ -10,14 +10,18 @@ import {
     type Exportable,
     type InputRecord,
 } from "./files.js";
+import { exportJob } from "./formats.js";
 import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
+import { makeQuads } from "./quads.js";
 import type {
     EmbeddingClaim,
     EmbeddingSession,
     EmbedResult,
     ExportedFiles,
+    ExportFormat,
+    ExportView,
     LandmarkInput,
     LandmarkOptions,
     LandmarksInfo,
@@ -26,6 +30,8 @@ import type {
     MeshInput,
     PathShape,
     ReshapeOptions,
+    QuadMesh,
+    QuadOptions,
     SolveOptions,
     TargetInfo,
     TemplateLayout,
@@ -102,13 +108,14 @@ export class Session implements EmbeddingSession {
             record.name = input.name ?? null;
             record.sha256 = await sha256(byteArray(input.bytes, "the landmark file"));
         }
-        const given = this.givenLandmarks(input, notes);
+        const names: string[] = [];
+        const given = this.givenLandmarks(input, notes, names);
         const { layout, target } = this.inputs();
         const landmarks =
             options.numbering === "loaded" ? given : throughRepairs(given, layout, target);
         this.confirm(layout, target, landmarks);
-        this.landmarks = { landmarks, notes, record };
-        return { landmarks: landmarks.slice(), notes: [...notes] };
+        this.landmarks = { landmarks, names, notes, record };
+        return { landmarks: landmarks.slice(), names: [...names], notes: [...notes] };
     }
 
     async landmarksByProximity(): Promise<LandmarksInfo> {
@@ -124,8 +131,8 @@ export class Session implements EmbeddingSession {
         const landmarks = this.takeLandmarks(handle, notes);
         this.confirm(layout, target, landmarks);
         const record: InputRecord = { role: "landmarks", name: null, sha256: null };
-        this.landmarks = { landmarks, notes, record };
-        return Promise.resolve({ landmarks: landmarks.slice(), notes: [...notes] });
+        this.landmarks = { landmarks, names: [], notes, record };
+        return Promise.resolve({ landmarks: landmarks.slice(), names: [], notes: [...notes] });
     }
 
     async templateLayout(
@@ -222,6 +229,17 @@ export class Session implements EmbeddingSession {
         return Promise.resolve({ "refined.obj": obj, ...exportedFiles(exportable) });
     }
 
+    async exportAs(
+        formats: readonly ExportFormat[],
+        view: ExportView = {},
+    ): Promise<Record<string, Uint8Array>> {
+        return Promise.resolve(exportJob(this.core, this.embeddedJob(), formats, view));
+    }
+
+    async quads(options: QuadOptions = {}): Promise<QuadMesh> {
+        return Promise.resolve(makeQuads(this.core, this.embeddedJob(), options));
+    }
+
     /** What embedding.json says of the last solve(), also where no embedding was found. */
     embeddingDocument(): EmbeddingDocument {
         return embeddingDocument(this.exportable());
@@ -252,6 +270,16 @@ export class Session implements EmbeddingSession {
             this.forget(this.target);
         }
         return Promise.resolve();
+    }
+
+    /** The job of the last solve(), if it has an embedding. */
+    private embeddedJob(): Handle {
+        this.assertAlive();
+        const { core, solved } = this;
+        if (solved === null || !core.test("boundary_job_refined_positions", solved.job)) {
+            throw javaScriptError("nothingToExport", "no embedding was found in this session");
+        }
+        return solved.job;
     }
 
     private exportable(): Exportable {
@@ -324,13 +352,27 @@ export class Session implements EmbeddingSession {
         return this.core.viewedIds();
     }
 
-    private givenLandmarks(input: LandmarkInput, notes: string[]): Uint32Array<ArrayBuffer> {
+    private givenLandmarks(
+        input: LandmarkInput,
+        notes: string[],
+        names: string[] = [],
+    ): Uint32Array<ArrayBuffer> {
         return "bytes" in input
-            ? this.readLandmarks(byteArray(input.bytes, "the landmark file"), input.name, notes)
+            ? this.readLandmarks(
+                  byteArray(input.bytes, "the landmark file"),
+                  input.name,
+                  notes,
+                  names,
+              )
             : landmarkIds(input);
     }
 
-    private readLandmarks(bytes: Uint8Array, name: string | undefined, notes: string[]) {
+    private readLandmarks(
+        bytes: Uint8Array,
+        name: string | undefined,
+        notes: string[],
+        names: string[],
+    ) {
         this.assertAlive();
         const { core } = this;
         const handle = core.withCopies((copy) => {
@@ -345,12 +387,19 @@ export class Session implements EmbeddingSession {
                 this.target?.mesh.vertexMap === null ? this.target.mesh.handle : 0,
             );
         });
-        return this.takeLandmarks(handle, notes);
+        return this.takeLandmarks(handle, notes, names);
     }
 
-    private takeLandmarks(handle: Handle, notes: string[]): Uint32Array<ArrayBuffer> {
+    private takeLandmarks(
+        handle: Handle,
+        notes: string[],
+        names: string[] = [],
+    ): Uint32Array<ArrayBuffer> {
         const { core } = this;
         try {
+            for (let i = 0; core.test("boundary_landmarks_name", handle, i); ++i) {
+                names.push(core.viewedText());
+            }
             for (let i = 0; core.test("boundary_landmarks_note", handle, i); ++i) {
                 notes.push(core.viewedText());
             }

@@ -25,10 +25,14 @@ export interface MeshFile {
     format?: MeshFormat;
 }
 
-export type MeshFormat = "obj" | "off";
+export type MeshFormat = "obj" | "off" | "ply" | "stl" | "glb";
 export type MeshInput = MeshArrays | MeshFile;
 
-/** The content of a landmark file: one target vertex id per line. */
+/**
+ * The content of a landmark file: one target vertex id per line, `id x y z` per line (.vts), JSON
+ * with names, picked points of MeshLab (.pp) or markups of 3D Slicer (.mrk.json). Points without an
+ * id go to the nearest vertices of the target.
+ */
 export interface LandmarkFile {
     bytes: Uint8Array | ArrayBuffer;
     name?: string;
@@ -97,6 +101,8 @@ export interface LandmarkOptions {
 export interface LandmarksInfo {
     /** Target vertex id (after a repair) per layout vertex. */
     landmarks: Uint32Array;
+    /** Their names, "" for none; empty where the input has no names. */
+    names: string[];
     notes: Notes;
 }
 
@@ -365,6 +371,75 @@ export interface ExportedFiles {
     "embedding.json": Uint8Array;
 }
 
+/**
+ * What an embedding can be exported as: OBJ, PLY, VTP (VTK), GLB, a picture as SVG, or the files of
+ * the paper's reference implementation (.inp, .lem and three meshes).
+ */
+export type ExportFormat = "obj" | "ply" | "vtp" | "glb" | "svg" | "lem";
+
+/** From where a picture is taken, without perspective. */
+export interface ExportView {
+    /** From the surface towards the eye. Default: z. */
+    direction?: readonly [number, number, number];
+    /** What is up in the picture. Default: y. */
+    up?: readonly [number, number, number];
+    /** In pixels. Default: 800. */
+    width?: number;
+}
+
+export interface QuadOptions {
+    /** Wanted length of edges, in the target's units. Default: one that gives about 4000 quads. */
+    edgeLength?: number;
+    /** Pairs of a layout edge and its number of segments, which rule its whole loops of quads. */
+    segments?: readonly (readonly [edge: number, segments: number])[];
+    /** How often all vertices are moved to even the mesh out. Default: 30. */
+    relaxation?: number;
+}
+
+/** A quad mesh on the target whose base complex is the layout. */
+export interface QuadMesh {
+    /** 3 coordinates per vertex. */
+    positions: Float64Array;
+    /** 4 vertex ids per quad, counter-clockwise. */
+    quads: Uint32Array;
+    /** The layout face of each quad. */
+    faces: Uint32Array;
+    /**
+     * The base complex as chains of vertices: the layout's edges in their order, then edges inside
+     * of faces where they were subdivided.
+     */
+    chains: Uint32Array[];
+    /** Two per layout edge: the dual loops of its halves, the same unless `subdivided`. */
+    loops: Uint32Array;
+    /** Whether the layout had a face without four sides, so that all were subdivided once. */
+    subdivided: boolean;
+    statistics: {
+        /** Scaled Jacobians: 1 for a rectangle, not positive where a quad is flipped. */
+        leastJacobian: number;
+        meanJacobian: number;
+        flipped: number;
+        /** Degrees. */
+        leastAngle: number;
+        largestAngle: number;
+        /** Root mean square of the differences to 90 degrees. */
+        angleDeviation: number;
+        leastEdge: number;
+        meanEdge: number;
+        largestEdge: number;
+    };
+    /** As an OBJ file: faces in groups, the base complex as lines. */
+    obj: Uint8Array;
+}
+
+/** An `.inp` file of the paper's reference implementation. */
+export interface ReferenceInput {
+    /** The files of layout and target, relative to this one. */
+    layoutFile: string;
+    targetFile: string;
+    /** The target vertex of each layout vertex; throws landmarkCount where they don't fit. */
+    landmarks: (vertexCount: number) => Uint32Array;
+}
+
 /** A claimed embedding, to be checked against the session's layout, target and landmarks. */
 export interface EmbeddingClaim {
     refined: RefinedMesh;
@@ -410,6 +485,16 @@ export interface EmbeddingSession {
     reshape(shape: PathShape, options?: ReshapeOptions): Promise<EmbedResult>;
     /** The files of the last embedding that solve() returned. */
     exportFiles(): Promise<ExportedFiles>;
+    /**
+     * The last embedding in the formats of other programs: files by name, `refined.<format>`; for
+     * "lem" refined.inp, refined.lem and the meshes they name. `view` is for pictures.
+     */
+    exportAs(
+        formats: readonly ExportFormat[],
+        view?: ExportView,
+    ): Promise<Record<string, Uint8Array>>;
+    /** A quad mesh whose base complex is the last embedding. */
+    quads(options?: QuadOptions): Promise<QuadMesh>;
     /** What is wrong with a claimed embedding; empty if it is valid. */
     check(claim: EmbeddingClaim): Promise<Violation[]>;
     /** Frees everything; the session cannot be used any more. */

@@ -2,7 +2,15 @@
 import { parseArgs, type ParseArgsConfig } from "node:util";
 import { javaScriptError, LayoutError } from "../errors.js";
 import { jobOptions } from "../job.js";
-import type { Algorithm, PathShape, SolveOptions } from "../types.js";
+import { confirmFormats } from "../formats.js";
+import type {
+    Algorithm,
+    ExportFormat,
+    ExportView,
+    PathShape,
+    QuadOptions,
+    SolveOptions,
+} from "../types.js";
 
 export interface EmbedCommand {
     name: "embed";
@@ -11,6 +19,11 @@ export interface EmbedCommand {
     landmarks: string | null;
     repair: boolean;
     output: string | null;
+    /** Whether to write a quad mesh, too, and which. */
+    quads: QuadOptions | null;
+    /** Further formats to write. */
+    formats: ExportFormat[];
+    view: ExportView;
     quiet: boolean;
     json: boolean;
     solve: SolveOptions;
@@ -25,6 +38,13 @@ export interface CheckCommand {
     repair: boolean;
 }
 
+export interface ConvertCommand {
+    name: "convert";
+    input: string;
+    output: string;
+    view: ExportView;
+}
+
 export interface LayoutCommand {
     name: "layout";
     target: string;
@@ -37,7 +57,12 @@ export interface LayoutCommand {
 }
 
 export type Command =
-    { name: "help" } | { name: "version" } | EmbedCommand | CheckCommand | LayoutCommand;
+    | { name: "help" }
+    | { name: "version" }
+    | EmbedCommand
+    | CheckCommand
+    | LayoutCommand
+    | ConvertCommand;
 
 const commonOptions = {
     help: { type: "boolean" },
@@ -56,7 +81,24 @@ const embedOptions = {
     seed: { type: "string" },
     shape: { type: "string" },
     output: { type: "string" },
+    format: { type: "string", multiple: true },
+    view: { type: "string" },
     quiet: { type: "boolean" },
+} as const satisfies ParseArgsConfig["options"];
+
+type EmbedValues = ReturnType<typeof parseArgs<{ options: typeof embedOptions }>>["values"];
+
+const quadOptions = {
+    ...embedOptions,
+    "edge-length": { type: "string" },
+    segments: { type: "string", multiple: true },
+    relaxation: { type: "string" },
+} as const satisfies ParseArgsConfig["options"];
+
+const convertOptions = {
+    help: { type: "boolean" },
+    json: { type: "boolean" },
+    view: { type: "string" },
 } as const satisfies ParseArgsConfig["options"];
 
 const layoutOptions = {
@@ -81,10 +123,14 @@ export function parseCommand(args: string[]): Command {
     switch (name) {
         case "embed":
             return parseEmbed(rest);
+        case "quads":
+            return parseQuads(rest);
         case "check":
             return parseCheck(rest);
         case "layout":
             return parseLayout(rest);
+        case "convert":
+            return parseConvert(rest);
         case "--help":
         case "-h":
         case "help":
@@ -101,10 +147,48 @@ export function parseCommand(args: string[]): Command {
 
 function parseEmbed(args: string[]): Command {
     const { values, positionals } = parsed({ args, options: embedOptions, allowPositionals: true });
+    return values.help ? { name: "help" } : embedCommand(values, positionals, null);
+}
+
+function parseQuads(args: string[]): Command {
+    const { values, positionals } = parsed({ args, options: quadOptions, allowPositionals: true });
     if (values.help) {
         return { name: "help" };
     }
-    const [layout, target] = paths(positionals, ["LAYOUT", "TARGET"]);
+    needed("--output DIR", values.output);
+    const segments = (values.segments ?? []).flatMap((list) => list.split(",")).map(segmentPair);
+    return embedCommand(values, positionals, {
+        ...given("edgeLength", number("--edge-length", values["edge-length"])),
+        segments,
+        ...given("relaxation", number("--relaxation", values.relaxation)),
+    });
+}
+
+/** `EDGE=N`: a layout edge and its number of segments. */
+function segmentPair(text: string): [number, number] {
+    const match = /^(\d+)=(\d+)$/.exec(text);
+    if (match === null) {
+        throw new LayoutError("invalidOption", `--segments has "${text}"; give EDGE=NUMBER.`);
+    }
+    return [Number(match[1]), Number(match[2])];
+}
+
+function embedCommand(
+    values: EmbedValues,
+    positionals: string[],
+    quads: QuadOptions | null,
+): EmbedCommand {
+    // The reference implementation's input names both files.
+    const [first] = positionals;
+    const [layout, target] =
+        positionals.length === 1 && first !== undefined && /\.inp$/i.test(first)
+            ? [first, ""]
+            : paths(positionals, ["LAYOUT", "TARGET"]);
+    const formats = (values.format ?? []).flatMap((list) => list.split(","));
+    confirmFormats(formats);
+    if (formats.length > 0 && values.output === undefined) {
+        throw javaScriptError("usage", "--format needs --output DIR");
+    }
     const solve: SolveOptions = {
         ...given("algorithm", values.algorithm as Algorithm | undefined),
         ...given("gap", number("--gap", values.gap)),
@@ -123,6 +207,9 @@ function parseEmbed(args: string[]): Command {
         landmarks: values.landmarks ?? null,
         repair: values.repair === true,
         output: values.output ?? null,
+        quads,
+        formats,
+        view: view(values.view),
         quiet: values.quiet === true,
         json: values.json === true,
         solve,
@@ -168,6 +255,40 @@ function parseLayout(args: string[]): Command {
         repair: values.repair === true,
         quiet: values.quiet === true,
         json: values.json === true,
+    };
+}
+
+function parseConvert(args: string[]): Command {
+    const { values, positionals } = parsed({
+        args,
+        options: convertOptions,
+        allowPositionals: true,
+    });
+    if (values.help) {
+        return { name: "help" };
+    }
+    const [input, output] = paths(positionals, ["INPUT", "OUTPUT"]);
+    return { name: "convert", input, output, view: view(values.view) };
+}
+
+/** `X,Y,Z` or `X,Y,Z,UX,UY,UZ`: the direction towards the eye, and what is up. */
+function view(text: string | undefined): ExportView {
+    if (text === undefined) {
+        return {};
+    }
+    const numbers = text.split(",").map((part) => number("--view", part) ?? 0);
+    const [x = 0, y = 0, z = 0, ...up] = numbers;
+    if (numbers.length !== 3 && numbers.length !== 6) {
+        throw new LayoutError(
+            "invalidOption",
+            `--view is "${text}"; give three numbers, or six with what is up.`,
+        );
+    }
+    // Looking from above or below, y is no direction in the picture.
+    const usual: [number, number, number] = x === 0 && z === 0 ? [0, 0, 1] : [0, 1, 0];
+    return {
+        direction: [x, y, z],
+        up: numbers.length === 6 ? (up as [number, number, number]) : usual,
     };
 }
 

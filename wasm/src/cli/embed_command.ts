@@ -2,9 +2,9 @@
 import { LayoutError } from "../errors.js";
 import type { EmbeddingDocument } from "../files.js";
 import { Session } from "../session.js";
-import type { EmbedResult } from "../types.js";
+import type { EmbedResult, QuadMesh } from "../types.js";
 import type { EmbedCommand } from "./arguments.js";
-import { readInput } from "./input_files.js";
+import { readInput, readReference } from "./input_files.js";
 import { exitCodes, type Outcome } from "./outcome.js";
 import { OutputFolder } from "./output_folder.js";
 import { ProgressLine } from "./progress.js";
@@ -32,19 +32,23 @@ export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
 }
 
 async function load(session: Session, command: EmbedCommand): Promise<void> {
-    const layout = await readInput("the layout", command.layout);
-    const target = await readInput("the target", command.target);
-    const landmarks =
+    const reference = command.target === "" ? await readReference(command.layout) : null;
+    const layout = await readInput("the layout", reference?.layout ?? command.layout);
+    const target = await readInput("the target", reference?.target ?? command.target);
+    const file =
         command.landmarks === null ? null : await readInput("the landmark file", command.landmarks);
     const options = { repair: command.repair };
-    printNotes(command, [
-        ...(await session.loadLayout(layout, options)).notes,
-        ...(await session.loadTarget(target, options)).notes,
+    const loaded = await session.loadLayout(layout, options);
+    const notes = [...loaded.notes, ...(await session.loadTarget(target, options)).notes];
+    const landmarks =
+        file ?? reference?.landmarks(loaded.vertexMap?.length ?? loaded.vertexCount) ?? null;
+    notes.push(
         ...(landmarks === null
             ? await session.landmarksByProximity()
             : await session.setLandmarks(landmarks)
         ).notes,
-    ]);
+    );
+    printNotes(command, notes);
 }
 
 function printNotes(command: EmbedCommand, notes: string[]): void {
@@ -93,12 +97,36 @@ async function finish(
             document,
         };
     }
-    const files = output === null ? [] : await output.write({ ...(await session.exportFiles()) });
+    const quads = command.quads === null ? null : await session.quads(command.quads);
+    const files =
+        output === null
+            ? []
+            : await output.write({
+                  ...(await session.exportFiles()),
+                  ...(await session.exportAs(command.formats, command.view)),
+                  ...(quads === null ? {} : { "quads.obj": quads.obj }),
+              });
     return {
         exitCode: interrupted ? exitCodes.interrupted : exitCodes.success,
-        text: command.quiet ? "" : summaryText(document, files),
-        document: { ...document, files },
+        text: command.quiet
+            ? ""
+            : (quads === null ? "" : `${quadText(quads)}\n`) + summaryText(document, files),
+        document: { ...document, ...(quads === null ? {} : { quads: quadDocument(quads) }), files },
     };
+}
+
+function quadDocument({ faces, subdivided, loops, statistics }: QuadMesh) {
+    return { count: faces.length, subdivided, loops: Array.from(loops), ...statistics };
+}
+
+function quadText({ faces, subdivided, statistics }: QuadMesh): string {
+    const { flipped, leastJacobian, meanJacobian, leastAngle, largestAngle } = statistics;
+    return (
+        `${String(faces.length)} quads${subdivided ? " (layout faces subdivided)" : ""}, ` +
+        `${String(flipped)} flipped; scaled Jacobian ${leastJacobian.toFixed(3)} at least, ` +
+        `${meanJacobian.toFixed(3)} on average; angles ${leastAngle.toFixed(1)} to ` +
+        `${largestAngle.toFixed(1)} degrees`
+    );
 }
 
 function exitCodeWithout(result: EmbedResult, command: EmbedCommand): number {

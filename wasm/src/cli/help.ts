@@ -1,20 +1,32 @@
 export const helpText = `Embeds a coarse layout into a triangle mesh: every layout edge becomes a path on the surface.
 
 Usage
-  layout-embedding embed LAYOUT TARGET [options]   embed LAYOUT into TARGET (OBJ or OFF)
+  layout-embedding embed LAYOUT TARGET [options]   embed LAYOUT into TARGET (OBJ, OFF, PLY, STL
+                                                   or GLB); or the files that an .inp file names
+  layout-embedding quads LAYOUT TARGET --output DIR [options]
+                                                   embed, and write a quad mesh, quads.obj, too
   layout-embedding check DIR LAYOUT TARGET         check what embed wrote to DIR
   layout-embedding layout TARGET --landmarks FILE --output LAYOUT.obj [options]
                                                    make a layout by collapsing TARGET's edges
                                                    until only the landmarks are left
+  layout-embedding convert INPUT OUTPUT [--view X,Y,Z]
+                                                   write what embed wrote to the folder INPUT as
+                                                   .obj, .ply, .vtp, .glb or .svg, or the mesh
+                                                   INPUT as .obj, .off or .ply
 
 Options of all
   --landmarks FILE     one 0-based target vertex id per line, in the order of the layout's
-                       vertices; embed's default is by proximity, check's what embed wrote
+                       vertices (or .vts, .json, MeshLab's .pp, Slicer's .mrk.json); embed's
+                       default is by proximity, check's what embed wrote
   --repair             mend coincident and unused vertices, degenerate and duplicate faces
   --json               print one JSON object, also for errors
 
 Options of embed
   --output DIR         write refined.obj, refined_map.json and embedding.json there
+  --format LIST        write further formats there: ply, vtp, glb, svg, lem (files of the paper's
+                       reference implementation), separated by commas
+  --view X,Y,Z         for svg: the direction towards the eye (default 0,0,1); three more numbers
+                       say what is up
   --algorithm NAME     exact (default), branch-and-bound, greedy, praun, kraevoy or
                        schreiner
   --gap X              stop at this gap, (cost - lower bound) / cost (default 0.01)
@@ -26,6 +38,11 @@ Options of embed
   --shape NAME         short (default): paths as straight as their neighbours allow; even: crossing
                        the target's edges at even distances
   --quiet              print nothing but errors
+
+Options of quads, beside those of embed
+  --edge-length X      wanted length of the quads' edges (default: about 4000 quads)
+  --segments LIST      EDGE=N,...: numbers of segments of layout edges, which rule whole loops
+  --relaxation N       rounds of relaxation on the surface (default 30)
 
 Options of layout
   --output LAYOUT.obj  the file to write; its vertices are the landmarks, in their order

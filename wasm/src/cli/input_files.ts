@@ -1,6 +1,7 @@
 // Input files, with failures as sentences.
 import { readFile } from "node:fs/promises";
 import path from "node:path";
+import { readReferenceInput } from "../formats.js";
 import { javaScriptError, type LayoutError } from "../errors.js";
 
 /** A file's content and name, as the session takes them. `what` begins the messages. */
@@ -13,6 +14,22 @@ export async function readInput(
     } catch (reason) {
         throw fileError(what, file, reason);
     }
+}
+
+/** An `.inp` file: the paths of layout and target, and the landmarks. */
+export async function readReference(file: string): Promise<{
+    layout: string;
+    target: string;
+    landmarks: (vertexCount: number) => Uint32Array;
+}> {
+    const { bytes, name } = await readInput("the file", file);
+    const { layoutFile, targetFile, landmarks } = await readReferenceInput(bytes, name);
+    const folder = path.dirname(file);
+    return {
+        layout: path.resolve(folder, layoutFile),
+        target: path.resolve(folder, targetFile),
+        landmarks,
+    };
 }
 
 /** The error of a file that could not be read. */

@@ -1,0 +1,424 @@
+#include "apps/quad_mesh.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "apps/base_complex.hh"
+#include "apps/quad_relaxation.hh"
+#include "mesh/mesh_writer.hh"
+#include "patches/parametrisation.hh"
+#include "patches/patch.hh"
+#include "patches/point_location.hh"
+
+namespace layout_embedding {
+namespace {
+
+constexpr double kDefaultQuads = 4000;
+
+double chain_length(const RefinedMesh& refined, const std::vector<Index>& chain)
+{
+    double length = 0;
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+        length += (refined.positions[chain[i]] - refined.positions[chain[i - 1]]).norm();
+    }
+    return length;
+}
+
+double surface_area(const TriangleMesh& mesh)
+{
+    double sum = 0;
+    for (Index face = 0; face < mesh.face_count(); ++face) {
+        const auto corners = mesh.face(face);
+        const Vec3& a = mesh.position(corners[0]);
+        sum += (mesh.position(corners[1]) - a).cross(mesh.position(corners[2]) - a).norm() / 2;
+    }
+    return sum;
+}
+
+/// The places of refined points on the target.
+class Origin {
+public:
+    Origin(const TriangleMesh& target, const RefinedMesh& refined)
+        : target_(target), refined_(refined)
+    {}
+
+    /// A point of a refined triangle, as weights of its corners.
+    SurfacePoint in_triangle(Index triangle, const std::array<double, 3>& weights) const
+    {
+        SurfacePoint point{refined_.triangle_faces[triangle], {0, 0, 0}};
+        for (std::size_t i = 0; i < 3; ++i) {
+            add(refined_.corners[3 * std::size_t{triangle} + i], weights[i], point);
+        }
+        double sum = 0;
+        for (const double coordinate : point.barycentrics) {
+            sum += coordinate;
+        }
+        for (double& coordinate : point.barycentrics) {
+            coordinate /= sum;
+        }
+        return point;
+    }
+
+private:
+    /// Adds a refined vertex, which lies in the point's face or on its rim.
+    void add(Index vertex, double weight, SurfacePoint& point) const
+    {
+        const auto corners = target_.face(point.face);
+        const auto add_corner = [&](Index target_vertex, double share) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (corners[i] == target_vertex) {
+                    point.barycentrics[i] += share;
+                }
+            }
+        };
+        if (vertex < target_.vertex_count()) {
+            add_corner(vertex, weight);
+            return;
+        }
+        const Index k = vertex - target_.vertex_count();
+        const auto of_vertex = target_.face(refined_.vertex_faces[k]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            add_corner(of_vertex[i], weight * refined_.vertex_barycentrics[k][i]);
+        }
+    }
+
+    const TriangleMesh& target_;
+    const RefinedMesh& refined_;
+};
+
+class QuadMesher {
+public:
+    QuadMesher(const Layout& layout, const TriangleMesh& target, const RefinedMesh& refined,
+               const QuadOptions& options)
+        : layout_(layout),
+          target_(target),
+          refined_(refined),
+          options_(options),
+          base_(layout),
+          origin_(target, refined)
+    {}
+
+    Result<QuadMesh> run()
+    {
+        if (const Status status = choose(); !status) {
+            return status.error();
+        }
+        auto patches = patches_of(layout_, refined_);
+        if (!patches) {
+            return patches.error();
+        }
+        find_chain_triangles();
+        place_landmarks();
+        place_chains();
+        first_spoke_ = 2 * layout_.edge_count();
+        for (const Patch& patch : *patches) {
+            if (const Status status = fill(patch); !status) {
+                return status.error();
+            }
+        }
+        finish();
+        return std::move(mesh_);
+    }
+
+private:
+    Status choose()
+    {
+        std::vector<double> lengths;
+        for (const std::vector<Index>& chain : refined_.chains) {
+            lengths.push_back(chain_length(refined_, chain));
+        }
+        const double edge_length = options_.edge_length != 0
+                                       ? options_.edge_length
+                                       : std::sqrt(surface_area(target_) / kDefaultQuads);
+        auto segments = choose_segments(base_, layout_, lengths, edge_length, options_.segments);
+        if (!segments) {
+            return segments.error();
+        }
+        segments_ = std::move(*segments);
+        double vertices = layout_.vertex_count();
+        for (const BaseComplex::Quad& quad : base_.quads()) {
+            vertices += (segments_[quad.sides[0].edge] + 1.0) * (segments_[quad.sides[1].edge] + 1);
+        }
+        if (vertices >= kNone / 8) {
+            return make_error(ErrorCode::tooLarge, "the quads would have about " +
+                                                       std::to_string(vertices) + " vertices");
+        }
+        return {};
+    }
+
+    Index add_vertex(const SurfacePoint& point)
+    {
+        mesh_.points.push_back(point);
+        mesh_.positions.push_back(position_of(target_, point));
+        return static_cast<Index>(mesh_.positions.size() - 1);
+    }
+
+    /// A triangle beside every chain edge.
+    void find_chain_triangles()
+    {
+        for (const std::vector<Index>& chain : refined_.chains) {
+            for (std::size_t i = 1; i < chain.size(); ++i) {
+                chain_triangles_[std::minmax(chain[i - 1], chain[i])] = kNone;
+            }
+        }
+        for (Index h = 0; h < refined_.corners.size(); ++h) {
+            const Index a = refined_.corners[h];
+            const Index b = refined_.corners[TriangleMesh::next(h)];
+            const auto found = chain_triangles_.find(std::minmax(a, b));
+            if (found != chain_triangles_.end() && found->second == kNone) {
+                found->second = h / 3;
+            }
+        }
+    }
+
+    /// The point of a refined edge.
+    SurfacePoint on_edge(Index a, Index b, double share) const
+    {
+        const Index triangle = chain_triangles_.at(std::minmax(a, b));
+        std::array<double, 3> weights{0, 0, 0};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index corner = refined_.corners[3 * std::size_t{triangle} + i];
+            weights[i] = corner == a ? 1 - share : corner == b ? share : 0;
+        }
+        return origin_.in_triangle(triangle, weights);
+    }
+
+    void place_landmarks()
+    {
+        mesh_.points.resize(layout_.vertex_count());
+        mesh_.positions.resize(layout_.vertex_count());
+        for (Index e = 0; e < layout_.edge_count(); ++e) {
+            const std::vector<Index>& chain = refined_.chains[e];
+            const Index a = layout_.tail(2 * e);
+            const Index b = layout_.head(2 * e);
+            mesh_.points[a] = on_edge(chain[0], chain[1], 0);
+            mesh_.points[b] = on_edge(chain[chain.size() - 2], chain.back(), 1);
+            mesh_.positions[a] = refined_.positions[chain.front()];
+            mesh_.positions[b] = refined_.positions[chain.back()];
+        }
+    }
+
+    /// Points on a chain, at the given shares of its length, increasing.
+    void place_on_chain(const std::vector<Index>& chain, const std::vector<double>& shares,
+                        std::vector<Index>& vertices)
+    {
+        const double length = chain_length(refined_, chain);
+        std::size_t i = 1;
+        double begin = 0;
+        for (const double share : shares) {
+            const double wanted = share * length;
+            double step = 0;
+            for (;; ++i) {
+                step = (refined_.positions[chain[i]] - refined_.positions[chain[i - 1]]).norm();
+                if (begin + step >= wanted || i + 1 == chain.size()) {
+                    break;
+                }
+                begin += step;
+            }
+            const double local = step > 0 ? std::clamp((wanted - begin) / step, 0.0, 1.0) : 0.5;
+            vertices.push_back(add_vertex(on_edge(chain[i - 1], chain[i], local)));
+        }
+    }
+
+    void place_chains()
+    {
+        edge_vertices_.resize(base_.edge_count());
+        for (Index e = 0; e < layout_.edge_count(); ++e) {
+            const auto [first, second] = base_.edges_of(e);
+            std::vector<double> shares;
+            const bool halved = base_.is_subdivided();
+            const Index n = segments_[first];
+            for (Index i = 1; i < n + (halved ? 1 : 0); ++i) {
+                shares.push_back(double(i) / n / (halved ? 2 : 1));
+            }
+            for (Index i = 1; halved && i < segments_[second]; ++i) {
+                shares.push_back(0.5 + double(i) / segments_[second] / 2);
+            }
+            std::vector<Index> vertices{layout_.tail(2 * e)};
+            place_on_chain(refined_.chains[e], shares, vertices);
+            vertices.push_back(layout_.head(2 * e));
+            if (halved) {
+                edge_vertices_[first].assign(vertices.begin(), vertices.begin() + n + 1);
+                edge_vertices_[second].assign(vertices.rbegin(),
+                                              vertices.rbegin() + segments_[second] + 1);
+            } else {
+                edge_vertices_[first] = vertices;
+            }
+            mesh_.chains.push_back(std::move(vertices));
+        }
+    }
+
+    /// The grids of one patch.
+    Status fill(const Patch& patch)
+    {
+        const Index sides = patch.side_count();
+        const Domain domain =
+            sides == 4 ? fitting_rectangle(patch, refined_.positions) : regular_polygon(sides);
+        const auto map = parametrise(patch, refined_.positions, domain);
+        if (!map) {
+            return map.error();
+        }
+        const PointLocation location(*map);
+        const auto lift = [&](const Vec2& point) {
+            const PointLocation::Place place = location.find(point);
+            return add_vertex(on_surface(patch, *map, place));
+        };
+        Vec2 centre(0, 0);
+        for (const Vec2& corner : domain) {
+            centre += corner / sides;
+        }
+        const auto corner = [&](Index i) -> const Vec2& { return domain[i % sides]; };
+        const auto middle = [&](Index i) -> Vec2 { return (corner(i) + corner(i + 1)) / 2; };
+        if (!base_.is_subdivided()) {
+            fill_quad(base_.quads()[patch.face], {domain[0], domain[1], domain[2], domain[3]},
+                      lift);
+            return {};
+        }
+        const Index centre_vertex = lift(centre);
+        for (Index i = 0; i < sides; ++i) {
+            // From the middle of the side to the centre.
+            const Index spoke = first_spoke_ + i;
+            const Index halfedge = layout_.face_halfedges(patch.face)[i];
+            std::vector<Index>& vertices = edge_vertices_[spoke];
+            vertices.push_back(edge_vertices_[halfedge].back());
+            for (Index k = 1; k < segments_[spoke]; ++k) {
+                const double share = double(k) / segments_[spoke];
+                vertices.push_back(lift((1 - share) * middle(i) + share * centre));
+            }
+            vertices.push_back(centre_vertex);
+        }
+        for (Index i = 0; i < sides; ++i) {
+            fill_quad(base_.quads()[first_spoke_ - 2 * layout_.edge_count() + i],
+                      {corner(i), middle(i), centre, middle(i + sides - 1)}, lift);
+        }
+        first_spoke_ += sides;
+        return {};
+    }
+
+    /// From a triangle of the map to the target.
+    SurfacePoint on_surface(const Patch& patch, const Parametrisation& map,
+                            const PointLocation::Place& place) const
+    {
+        const Index parent = map.parents[place.triangle];
+        // Per corner of the patch's triangle.
+        std::array<double, 3> weights{0, 0, 0};
+        const auto add = [&](Index vertex, double weight) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (patch.corners[parent][i] == vertex) {
+                    weights[i] += weight;
+                }
+            }
+        };
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index vertex = map.corners[place.triangle][i];
+            const double weight = place.barycentrics[i];
+            if (vertex < patch.vertices.size()) {
+                add(vertex, weight);
+            } else {
+                const auto& [a, b] = map.splits[vertex - patch.vertices.size()];
+                add(a, weight / 2);
+                add(b, weight / 2);
+            }
+        }
+        return origin_.in_triangle(patch.triangles[parent], weights);
+    }
+
+    template <typename Lift>
+    void fill_quad(const BaseComplex::Quad& quad, const std::array<Vec2, 4>& corners,
+                   const Lift& lift)
+    {
+        std::array<std::vector<Index>, 4> rims;
+        for (std::size_t i = 0; i < 4; ++i) {
+            rims[i] = edge_vertices_[quad.sides[i].edge];
+            if (quad.sides[i].backwards) {
+                std::reverse(rims[i].begin(), rims[i].end());
+            }
+        }
+        const auto m = static_cast<Index>(rims[0].size() - 1);
+        const auto n = static_cast<Index>(rims[1].size() - 1);
+        std::vector<Index> grid(std::size_t{m + 1} * (n + 1));
+        const auto at = [&](Index i, Index j) -> Index& {
+            return grid[std::size_t{j} * (m + 1) + i];
+        };
+        for (Index i = 0; i <= m; ++i) {
+            at(i, 0) = rims[0][i];
+            at(i, n) = rims[2][m - i];
+        }
+        for (Index j = 0; j <= n; ++j) {
+            at(m, j) = rims[1][j];
+            at(0, j) = rims[3][n - j];
+        }
+        for (Index j = 1; j < n; ++j) {
+            for (Index i = 1; i < m; ++i) {
+                const double s = double(i) / m;
+                const double t = double(j) / n;
+                at(i, j) = lift((1 - t) * ((1 - s) * corners[0] + s * corners[1]) +
+                                t * ((1 - s) * corners[3] + s * corners[2]));
+            }
+        }
+        for (Index j = 0; j < n; ++j) {
+            for (Index i = 0; i < m; ++i) {
+                mesh_.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+                mesh_.quad_faces.push_back(quad.face);
+            }
+        }
+    }
+
+    void finish()
+    {
+        mesh_.is_subdivided = base_.is_subdivided();
+        for (Index e = 0; e < layout_.edge_count(); ++e) {
+            const auto [first, second] = base_.edges_of(e);
+            mesh_.loops.push_back({base_.loops()[first], base_.loops()[second]});
+        }
+        for (Index e = base_.is_subdivided() ? 2 * layout_.edge_count() : base_.edge_count();
+             e < base_.edge_count(); ++e) {
+            mesh_.chains.push_back(edge_vertices_[e]);
+        }
+        std::vector<bool> fixed(mesh_.positions.size(), false);
+        std::fill(fixed.begin(), fixed.begin() + layout_.vertex_count(), true);
+        for (Index e = 0; e < layout_.edge_count(); ++e) {
+            if (layout_.face(2 * e) == kNone || layout_.face(2 * e + 1) == kNone) {
+                for (const Index v : mesh_.chains[e]) {
+                    fixed[v] = true;
+                }
+            }
+        }
+        relax_quads(target_, fixed, options_.relaxation_rounds, mesh_);
+        mesh_.statistics =
+            quad_statistics(mesh_.positions, mesh_.quads, surface_normals(target_, mesh_));
+    }
+
+    const Layout& layout_;
+    const TriangleMesh& target_;
+    const RefinedMesh& refined_;
+    const QuadOptions& options_;
+    BaseComplex base_;
+    Origin origin_;
+    std::vector<Index> segments_;                               // per base edge
+    std::map<std::pair<Index, Index>, Index> chain_triangles_;  // by refined edge
+    std::vector<std::vector<Index>> edge_vertices_;             // per base edge
+    Index first_spoke_ = 0;
+    QuadMesh mesh_;
+};
+
+}  // namespace
+
+Result<QuadMesh> make_quad_mesh(const Layout& layout, const TriangleMesh& target,
+                                const RefinedMesh& refined, const QuadOptions& options)
+{
+    return QuadMesher(layout, target, refined, options).run();
+}
+
+std::string write_quad_obj(const QuadMesh& mesh)
+{
+    PolygonMesh polygons;
+    polygons.positions = mesh.positions;
+    for (const auto& quad : mesh.quads) {
+        polygons.add_face(quad);
+    }
+    return write_obj(polygons, {mesh.quad_faces, "patch_", mesh.chains});
+}
+
+}  // namespace layout_embedding

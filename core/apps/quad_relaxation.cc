@@ -1,0 +1,189 @@
+#include "apps/quad_relaxation.hh"
+
+#include <algorithm>
+
+#include "patches/domain.hh"
+
+namespace layout_embedding {
+namespace {
+
+class QuadRelaxation {
+public:
+    QuadRelaxation(const TriangleMesh& target, const std::vector<bool>& fixed, QuadMesh& mesh)
+        : target_(target), fixed_(fixed), mesh_(mesh)
+    {
+        offsets_.assign(mesh.positions.size() + 1, 0);
+        for (const auto& quad : mesh.quads) {
+            for (const Index v : quad) {
+                ++offsets_[v + 1];
+            }
+        }
+        for (std::size_t v = 1; v < offsets_.size(); ++v) {
+            offsets_[v] += offsets_[v - 1];
+        }
+        quads_.resize(offsets_.back());
+        std::vector<Index> ends(offsets_.begin(), offsets_.end() - 1);
+        for (Index q = 0; q < mesh.quads.size(); ++q) {
+            for (const Index v : mesh.quads[q]) {
+                quads_[ends[v]++] = q;
+            }
+        }
+    }
+
+    void run(Index rounds)
+    {
+        for (Index round = 0; round < rounds; ++round) {
+            double moved = 0;
+            for (Index v = 0; v < mesh_.positions.size(); ++v) {
+                if (!fixed_[v]) {
+                    moved = std::max(moved, move(v));
+                }
+            }
+            if (moved < 1e-3) {
+                break;
+            }
+        }
+        mend(rounds);
+    }
+
+private:
+    /// The smallest scaled Jacobian of the quads around v.
+    double quality(Index v) const
+    {
+        double least = 1;
+        for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+            std::array<Vec3, 4> corners;
+            Vec3 up(0, 0, 0);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Index corner = mesh_.quads[quads_[place]][i];
+                corners[i] = mesh_.positions[corner];
+                up += face_normal(target_, mesh_.points[corner].face);
+            }
+            least = std::min(least, scaled_jacobian(corners, up));
+        }
+        return least;
+    }
+
+    /// Moves v; how far, in lengths of the edges around it.
+    double move(Index v)
+    {
+        constexpr double kGood = 0.5;
+        Vec3 mean(0, 0, 0);
+        double length = 0;
+        Index count = 0;
+        for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+            const auto& quad = mesh_.quads[quads_[place]];
+            const auto at = std::find(quad.begin(), quad.end(), v) - quad.begin();
+            for (const auto step : {1, 3}) {
+                const Vec3& neighbour =
+                    mesh_.positions[quad[static_cast<std::size_t>((at + step) % 4)]];
+                mean += neighbour;
+                length += (neighbour - mesh_.positions[v]).norm();
+                ++count;
+            }
+        }
+        mean /= count;
+        length /= count;
+        const SurfacePoint old_point = mesh_.points[v];
+        const Vec3 old_position = mesh_.positions[v];
+        const double before = quality(v);
+        for (const double step : {1.0, 0.5, 0.2}) {
+            mesh_.points[v] =
+                walk_to_nearest(target_, old_point, (1 - step) * old_position + step * mean);
+            mesh_.positions[v] = position_of(target_, mesh_.points[v]);
+            const double after = quality(v);
+            if (after > before || after >= kGood) {
+                return length > 0 ? (mesh_.positions[v] - old_position).norm() / length : 0;
+            }
+        }
+        mesh_.points[v] = old_point;
+        mesh_.positions[v] = old_position;
+        return 0;
+    }
+
+    /// Means of neighbours do not untangle; where quads are still bad, vertices look around for a
+    /// place where the worst quad around them is better.
+    void mend(Index rounds)
+    {
+        constexpr double kBad = 0.25;
+        for (Index round = 0; round < 2 * rounds; ++round) {
+            bool improved = false;
+            for (Index v = 0; v < mesh_.positions.size(); ++v) {
+                if (!fixed_[v] && quality(v) < kBad) {
+                    improved = look_around(v) || improved;
+                }
+            }
+            if (!improved) {
+                return;
+            }
+        }
+    }
+
+    bool look_around(Index v)
+    {
+        static const Domain directions = regular_polygon(8);
+        const Vec3 old_position = mesh_.positions[v];
+        const SurfacePoint old_point = mesh_.points[v];
+        double length = 0;
+        for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+            const auto& quad = mesh_.quads[quads_[place]];
+            for (const Index corner : quad) {
+                length = std::max(length, (mesh_.positions[corner] - old_position).norm());
+            }
+        }
+        const Vec3 normal = face_normal(target_, old_point.face);
+        int axis = 0;
+        normal.cwiseAbs().minCoeff(&axis);
+        const Vec3 across = normal.cross(Vec3::Unit(axis)).normalized();
+        const Vec3 along = normal.cross(across);
+        const double before = quality(v);
+        double best = before;
+        SurfacePoint best_point = old_point;
+        for (const double step : {0.4, 0.15, 0.05, 0.015}) {
+            for (const Vec2& direction : directions) {
+                mesh_.points[v] = walk_to_nearest(
+                    target_, old_point,
+                    old_position +
+                        step * length * (direction.x() * across + direction.y() * along));
+                mesh_.positions[v] = position_of(target_, mesh_.points[v]);
+                if (const double quality_here = quality(v); quality_here > best) {
+                    best = quality_here;
+                    best_point = mesh_.points[v];
+                }
+            }
+        }
+        mesh_.points[v] = best_point;
+        mesh_.positions[v] = best > before ? position_of(target_, best_point) : old_position;
+        return best > before + 1e-3;
+    }
+
+    const TriangleMesh& target_;
+    const std::vector<bool>& fixed_;
+    QuadMesh& mesh_;
+    std::vector<Index> offsets_;  // per vertex: its first place in quads_
+    std::vector<Index> quads_;
+};
+
+}  // namespace
+
+void relax_quads(const TriangleMesh& target, const std::vector<bool>& fixed, Index rounds,
+                 QuadMesh& mesh)
+{
+    QuadRelaxation(target, fixed, mesh).run(rounds);
+}
+
+std::vector<Vec3> surface_normals(const TriangleMesh& target, const QuadMesh& mesh)
+{
+    std::vector<Vec3> normals;
+    normals.reserve(mesh.quads.size());
+    for (const auto& quad : mesh.quads) {
+        Vec3 sum(0, 0, 0);
+        for (const Index v : quad) {
+            sum += face_normal(target, mesh.points[v].face);
+        }
+        normals.push_back(sum);
+    }
+    return normals;
+}
+
+}  // namespace layout_embedding

@@ -1,0 +1,117 @@
+// Quad meshes of a job's embedding.
+#include "apps/quad_mesh.hh"
+#include "boundary/boundary.hh"
+
+namespace layout_embedding::boundary {
+
+namespace {
+
+const QuadMesh& quad_mesh(std::uint32_t handle)
+{
+    return handles<QuadMesh>().get(handle);
+}
+
+}  // namespace
+
+/// Makes a quad mesh of a job's embedding. `segments` are `count` pairs of a layout edge and its
+/// number of segments; an edge length of 0 stands for the default. Returns its handle.
+BOUNDARY_EXPORT(boundary_quads_create)
+std::uint32_t boundary_quads_create(std::uint32_t job, double edge_length,
+                                    const std::array<Index, 2>* segments, std::size_t count,
+                                    std::uint32_t relaxation_rounds)
+{
+    return guarded(0U, [&] {
+        const EmbedJob& embedding = handles<JobObject>().get(job).job;
+        if (!embedding.result().refined) {
+            throw InvalidHandle("the job has no embedding");
+        }
+        QuadOptions options;
+        options.edge_length = edge_length;
+        for (std::size_t i = 0; i < count; ++i) {
+            options.segments.emplace_back(segments[i][0], segments[i][1]);
+        }
+        options.relaxation_rounds = relaxation_rounds;
+        auto made = make_quad_mesh(*embedding.problem().layout, *embedding.problem().target,
+                                   *embedding.result().refined, options);
+        if (!made) {
+            set_error(made.error());
+            return 0U;
+        }
+        return handles<QuadMesh>().add(std::make_unique<QuadMesh>(std::move(*made)));
+    });
+}
+
+BOUNDARY_EXPORT(boundary_quads_positions) std::uint32_t boundary_quads_positions(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_view(quad_mesh(mesh).positions);
+        return 1U;
+    });
+}
+
+/// Views 4 vertex ids per quad.
+BOUNDARY_EXPORT(boundary_quads_corners) std::uint32_t boundary_quads_corners(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_view(quad_mesh(mesh).quads);
+        return 1U;
+    });
+}
+
+/// Views the layout face of each quad.
+BOUNDARY_EXPORT(boundary_quads_faces) std::uint32_t boundary_quads_faces(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_view(quad_mesh(mesh).quad_faces);
+        return 1U;
+    });
+}
+
+/// Views the vertices of one chain of the base complex; 0 beyond the last one.
+BOUNDARY_EXPORT(boundary_quads_chain)
+std::uint32_t boundary_quads_chain(std::uint32_t mesh, std::size_t chain)
+{
+    return guarded(0U, [&] {
+        const QuadMesh& quads = quad_mesh(mesh);
+        if (chain >= quads.chains.size()) {
+            return 0U;
+        }
+        set_view(quads.chains[chain]);
+        return 1U;
+    });
+}
+
+/// Views two dual loops per layout edge.
+BOUNDARY_EXPORT(boundary_quads_loops) std::uint32_t boundary_quads_loops(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_view(quad_mesh(mesh).loops);
+        return 1U;
+    });
+}
+
+/// Views the statistics as 10 doubles: least and mean scaled Jacobian, flipped quads, least and
+/// largest angle, angle deviation, least, mean and largest edge, whether all faces were subdivided.
+BOUNDARY_EXPORT(boundary_quads_statistics)
+std::uint32_t boundary_quads_statistics(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        const QuadMesh& quads = quad_mesh(mesh);
+        const QuadStatistics& s = quads.statistics;
+        set_owned_view(
+            std::vector<double>{s.least_jacobian, s.mean_jacobian, static_cast<double>(s.flipped),
+                                s.least_angle, s.largest_angle, s.angle_deviation, s.least_edge,
+                                s.mean_edge, s.largest_edge, quads.is_subdivided ? 1.0 : 0.0});
+        return 1U;
+    });
+}
+
+BOUNDARY_EXPORT(boundary_quads_write_obj) std::uint32_t boundary_quads_write_obj(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_owned_view(write_quad_obj(quad_mesh(mesh)));
+        return 1U;
+    });
+}
+
+}  // namespace layout_embedding::boundary
