@@ -76,7 +76,7 @@ describe("exports", () => {
         const meshes = new Map<string, Mesh>();
         scene.traverse((object) => {
             if (object instanceof Mesh) {
-                meshes.set(object.name, object);
+                meshes.set(object.name, object as Mesh);
             }
         });
         const { patches, corners, positions } = refined();
