@@ -260,16 +260,16 @@ private:
             return map.error();
         }
         const PointLocation location(*map);
-        const auto lift = [&](const Vec2& point) {
+        const auto lift = [&](const PlanePoint& point) {
             const PointLocation::Place place = location.find(point);
             return add_vertex(on_surface(patch, *map, place));
         };
-        Vec2 centre(0, 0);
-        for (const Vec2& corner : domain) {
+        PlanePoint centre(0, 0);
+        for (const PlanePoint& corner : domain) {
             centre += corner / sides;
         }
-        const auto corner = [&](Index i) -> const Vec2& { return domain[i % sides]; };
-        const auto middle = [&](Index i) -> Vec2 { return (corner(i) + corner(i + 1)) / 2; };
+        const auto corner = [&](Index i) -> const PlanePoint& { return domain[i % sides]; };
+        const auto middle = [&](Index i) -> PlanePoint { return (corner(i) + corner(i + 1)) / 2; };
         if (!base_.is_subdivided()) {
             fill_quad(base_.quads()[patch.face], {domain[0], domain[1], domain[2], domain[3]},
                       lift);
@@ -325,7 +325,7 @@ private:
     }
 
     template <typename Lift>
-    void fill_quad(const BaseComplex::Quad& quad, const std::array<Vec2, 4>& corners,
+    void fill_quad(const BaseComplex::Quad& quad, const std::array<PlanePoint, 4>& corners,
                    const Lift& lift)
     {
         std::array<std::vector<Index>, 4> rims;

@@ -140,7 +140,7 @@ private:
         double best = before;
         SurfacePoint best_point = old_point;
         for (const double step : {0.4, 0.15, 0.05, 0.015}) {
-            for (const Vec2& direction : directions) {
+            for (const PlanePoint& direction : directions) {
                 mesh_.points[v] = walk_to_nearest(
                     target_, old_point,
                     old_position +

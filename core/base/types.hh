@@ -15,9 +15,6 @@ inline constexpr Index kNone = std::numeric_limits<Index>::max();
 /// A point or vector in space, in the units of the target.
 using Vec3 = Eigen::Vector3d;
 
-/// A point or vector in a plane domain.
-using Vec2 = Eigen::Vector2d;
-
 /// A length in the path-graph metric, an exact integer; PathGraph::unit() converts it to the
 /// target's units.
 using Length = std::uint64_t;

@@ -49,7 +49,7 @@ Surface tube(const std::vector<Vec3>& points, double radius)
         across -= along * across.dot(along);
         across = across.norm() > 1e-6 ? across.normalized() : perpendicular(along);
         const Vec3 up = along.cross(across);
-        for (const Vec2& p : circle) {
+        for (const PlanePoint& p : circle) {
             const Vec3 normal = across * p.x() + up * p.y();
             surface.positions.push_back(points[i] + radius * normal);
             surface.normals.push_back(normal);

@@ -6,19 +6,19 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 /// (cos x, sin x) by their Taylor series, for 0 <= x <= pi.
-Vec2 unit_vector(double x)
+PlanePoint unit_vector(double x)
 {
     // Halved three times, the series need few terms; then the angle is doubled again.
     const double y = x / 8;
-    Vec2 result(1, y);
+    PlanePoint result(1, y);
     double term = y;
     for (int n = 2; n <= 15; ++n) {
         term *= y / n;
         result[n % 2] += n % 4 < 2 ? term : -term;
     }
     for (int i = 0; i < 3; ++i) {
-        result =
-            Vec2(result.x() * result.x() - result.y() * result.y(), 2 * result.x() * result.y());
+        result = PlanePoint(result.x() * result.x() - result.y() * result.y(),
+                            2 * result.x() * result.y());
     }
     return result;
 }
@@ -28,29 +28,30 @@ Vec2 unit_vector(double x)
 Domain regular_polygon(Index n)
 {
     Domain corners(n);
-    corners[0] = Vec2(1, 0);
+    corners[0] = PlanePoint(1, 0);
     // The lower half mirrors the upper one.
     for (Index k = 1; 2 * k <= n; ++k) {
-        corners[k] = 2 * k == n ? Vec2(-1, 0) : unit_vector(2 * kPi * k / n);
-        corners[n - k] = Vec2(corners[k].x(), -corners[k].y());
+        corners[k] = 2 * k == n ? PlanePoint(-1, 0) : unit_vector(2 * kPi * k / n);
+        corners[n - k] = PlanePoint(corners[k].x(), -corners[k].y());
     }
     if (n % 2 == 0) {
-        corners[n / 2] = Vec2(-1, 0);
+        corners[n / 2] = PlanePoint(-1, 0);
     }
     return corners;
 }
 
 Domain rectangle(double width, double height)
 {
-    return {Vec2(0, 0), Vec2(width, 0), Vec2(width, height), Vec2(0, height)};
+    return {PlanePoint(0, 0), PlanePoint(width, 0), PlanePoint(width, height),
+            PlanePoint(0, height)};
 }
 
 double area(const Domain& domain)
 {
     double sum = 0;
     for (std::size_t i = 1; i + 1 < domain.size(); ++i) {
-        const Vec2 a = domain[i] - domain[0];
-        const Vec2 b = domain[i + 1] - domain[0];
+        const PlanePoint a = domain[i] - domain[0];
+        const PlanePoint b = domain[i + 1] - domain[0];
         sum += a.x() * b.y() - a.y() * b.x();
     }
     return sum / 2;

@@ -6,9 +6,12 @@
 
 namespace layout_embedding {
 
+/// A point or vector in a plane domain.
+using PlanePoint = Eigen::Vector2d;
+
 /// The corners of a convex polygon in the plane, counter-clockwise; side i runs from corner i to
 /// the next one.
-using Domain = std::vector<Vec2>;
+using Domain = std::vector<PlanePoint>;
 
 /// The regular polygon with n >= 3 corners on the unit circle, the first one at (1, 0). Computed
 /// with + - * / alone: the same bits on every platform.

@@ -16,14 +16,14 @@ namespace {
 constexpr double kLargestStretch = 1e8;
 constexpr double kSmallestStretch = 1e-4;
 
-double cross(const Vec2& a, const Vec2& b)
+double cross(const PlanePoint& a, const PlanePoint& b)
 {
     return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Whether a, b, c are counter-clockwise beyond every doubt about rounding (Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", 1997).
-bool certainly_ccw(const Vec2& a, const Vec2& b, const Vec2& c)
+bool certainly_ccw(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
     const double left = (a.x() - c.x()) * (b.y() - c.y());
     const double right = (a.y() - c.y()) * (b.x() - c.x());
@@ -124,7 +124,7 @@ void split_edges(const Patch& patch, Parametrisation& map)
 
 /// Places boundary vertices on the sides of the domain by arc length.
 void place_boundary(const Patch& patch, std::span<const Vec3> positions, const Domain& domain,
-                    std::vector<Vec2>& points)
+                    std::vector<PlanePoint>& points)
 {
     const Index boundary = patch.boundary_size();
     for (Index side = 0; side < patch.side_count(); ++side) {
@@ -143,8 +143,8 @@ void place_boundary(const Patch& patch, std::span<const Vec3> positions, const D
         for (const double step : steps) {
             lengths.push_back(lengths.back() + std::max(step, least));
         }
-        const Vec2& from = domain[side];
-        const Vec2& to = domain[side + 1 == domain.size() ? 0 : side + 1];
+        const PlanePoint& from = domain[side];
+        const PlanePoint& to = domain[side + 1 == domain.size() ? 0 : side + 1];
         for (Index v = begin; v < end; ++v) {
             const double share = lengths[v - begin] / lengths.back();
             points[v] = (1 - share) * from + share * to;
@@ -185,7 +185,7 @@ public:
     }
 
     /// Places the inner vertices by the current weights.
-    void solve(std::vector<Vec2>& points) const
+    void solve(std::vector<PlanePoint>& points) const
     {
         const Index count = static_cast<Index>(points.size()) - boundary_;
         SparseRows matrix;
@@ -197,7 +197,7 @@ public:
             }
             matrix.columns.push_back(v - boundary_);
             matrix.values.push_back(1);
-            Vec2 constant(0, 0);
+            PlanePoint constant(0, 0);
             for (const Neighbour& neighbour : neighbours_[v]) {
                 const double share = neighbour.weight / sum;
                 if (neighbour.vertex < boundary_) {
@@ -218,11 +218,11 @@ public:
         factors.solve(sides[0]);
         factors.solve(sides[1]);
         for (Index i = 0; i < count; ++i) {
-            points[boundary_ + i] = Vec2(sides[0][i], sides[1][i]);
+            points[boundary_ + i] = PlanePoint(sides[0][i], sides[1][i]);
         }
     }
 
-    bool is_one_to_one(const std::vector<Vec2>& points) const
+    bool is_one_to_one(const std::vector<PlanePoint>& points) const
     {
         return std::all_of(map_.corners.begin(), map_.corners.end(), [&](const auto& c) {
             return certainly_ccw(points[c[0]], points[c[1]], points[c[2]]);
@@ -230,7 +230,7 @@ public:
     }
 
     /// The stretch of the whole map, and of the triangles around each vertex.
-    double stretch(const std::vector<Vec2>& points, double domain_area,
+    double stretch(const std::vector<PlanePoint>& points, double domain_area,
                    std::vector<double>& of_vertices) const
     {
         std::vector<double> areas(positions_.size(), 0);
@@ -247,8 +247,8 @@ public:
             const Vec3 u = positions_[c[1]] - positions_[c[0]];
             const Vec3 v = positions_[c[2]] - positions_[c[0]];
             const double surface_area = u.cross(v).norm() / 2;
-            const Vec2 p = points[c[1]] - points[c[0]];
-            const Vec2 q = points[c[2]] - points[c[0]];
+            const PlanePoint p = points[c[1]] - points[c[0]];
+            const PlanePoint q = points[c[2]] - points[c[0]];
             const double determinant = std::abs(cross(p, q));
             // The derivatives of the surface point by the coordinates of the domain.
             const Vec3 by_x = u * q.y() - v * p.y();
@@ -304,7 +304,7 @@ bool minimise_stretch(Placement& placement, Parametrisation& map, double domain_
 {
     // What is not one-to-one yet may become it.
     constexpr Index kRoundsToMend = 12;
-    std::vector<Vec2> points = map.points;
+    std::vector<PlanePoint> points = map.points;
     std::vector<double> of_vertices;
     bool found = false;
     for (Index round = 0;; ++round) {
@@ -348,7 +348,7 @@ Result<Parametrisation> parametrise(const Patch& patch, std::span<const Vec3> po
     Parametrisation map;
     split_edges(patch, map);
     const std::vector<Vec3> all = map.positions(patch, positions);
-    map.points.assign(all.size(), Vec2(0, 0));
+    map.points.assign(all.size(), PlanePoint(0, 0));
     place_boundary(patch, all, domain, map.points);
     Placement placement(patch, map, all);
     const double domain_area = area(domain);

@@ -15,7 +15,7 @@ namespace layout_embedding {
 struct Parametrisation {
     /// Per vertex: its place in the domain. The patch's vertices come first, then one per split
     /// edge.
-    std::vector<Vec2> points;
+    std::vector<PlanePoint> points;
     /// Per further vertex: the two patch vertices in whose middle it lies.
     std::vector<std::array<Index, 2>> splits;
     /// Per triangle: three vertices, counter-clockwise both on the surface and in the domain.

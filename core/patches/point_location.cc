@@ -6,7 +6,7 @@
 namespace layout_embedding {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b)
+double cross(const PlanePoint& a, const PlanePoint& b)
 {
     return a.x() * b.y() - a.y() * b.x();
 }
@@ -15,12 +15,12 @@ double cross(const Vec2& a, const Vec2& b)
 
 PointLocation::PointLocation(const Parametrisation& map) : map_(map), low_(map.points[0])
 {
-    Vec2 high = low_;
-    for (const Vec2& point : map.points) {
+    PlanePoint high = low_;
+    for (const PlanePoint& point : map.points) {
         low_ = low_.cwiseMin(point);
         high = high.cwiseMax(point);
     }
-    const Vec2 size = high - low_;
+    const PlanePoint size = high - low_;
     cell_size_ = std::sqrt(size.x() * size.y() / static_cast<double>(map.corners.size()));
     for (int axis = 0; axis < 2; ++axis) {
         const double count = std::floor(size[axis] / cell_size_) + 1;
@@ -30,8 +30,8 @@ PointLocation::PointLocation(const Parametrisation& map) : map_(map), low_(map.p
     offsets_.assign(std::size_t{cells_[0]} * cells_[1] + 1, 0);
     const auto for_each_cell = [&](auto&& action) {
         for (Index t = 0; t < map.corners.size(); ++t) {
-            Vec2 least = map.points[map.corners[t][0]];
-            Vec2 most = least;
+            PlanePoint least = map.points[map.corners[t][0]];
+            PlanePoint most = least;
             for (const Index corner : map.corners[t]) {
                 least = least.cwiseMin(map.points[corner]);
                 most = most.cwiseMax(map.points[corner]);
@@ -54,7 +54,7 @@ PointLocation::PointLocation(const Parametrisation& map) : map_(map), low_(map.p
     for_each_cell([&](std::size_t cell, Index t) { triangles_[ends[cell]++] = t; });
 }
 
-std::array<Index, 2> PointLocation::cell_of(const Vec2& point) const
+std::array<Index, 2> PointLocation::cell_of(const PlanePoint& point) const
 {
     std::array<Index, 2> cell{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -66,7 +66,7 @@ std::array<Index, 2> PointLocation::cell_of(const Vec2& point) const
     return cell;
 }
 
-PointLocation::Place PointLocation::find(const Vec2& point) const
+PointLocation::Place PointLocation::find(const PlanePoint& point) const
 {
     const auto [x, y] = cell_of(point);
     const std::size_t cell = std::size_t{y} * cells_[0] + x;
@@ -74,9 +74,9 @@ PointLocation::Place PointLocation::find(const Vec2& point) const
     double best_least = -std::numeric_limits<double>::infinity();
     const auto look_at = [&](Index t) {
         const auto& c = map_.corners[t];
-        const Vec2 a = map_.points[c[0]] - point;
-        const Vec2 b = map_.points[c[1]] - point;
-        const Vec2 d = map_.points[c[2]] - point;
+        const PlanePoint a = map_.points[c[0]] - point;
+        const PlanePoint b = map_.points[c[1]] - point;
+        const PlanePoint d = map_.points[c[2]] - point;
         const std::array<double, 3> areas{cross(b, d), cross(d, a), cross(a, b)};
         const double sum = areas[0] + areas[1] + areas[2];
         if (!(sum > 0)) {

@@ -22,13 +22,13 @@ public:
         std::array<double, 3> barycentrics;
     };
     /// Where `point` lies; for a point outside of the domain by rounding, a triangle beside it.
-    Place find(const Vec2& point) const;
+    Place find(const PlanePoint& point) const;
 
 private:
-    std::array<Index, 2> cell_of(const Vec2& point) const;
+    std::array<Index, 2> cell_of(const PlanePoint& point) const;
 
     const Parametrisation& map_;
-    Vec2 low_;
+    PlanePoint low_;
     double cell_size_ = 1;
     std::array<Index, 2> cells_{1, 1};
     std::vector<Index> offsets_;

@@ -59,7 +59,7 @@ std::pair<long, long> characteristic(const std::vector<std::array<Index, 3>>& co
             boundary};
 }
 
-double signed_area(const Vec2& a, const Vec2& b, const Vec2& c)
+double signed_area(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
     return ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x()) / 2;
 }
@@ -77,11 +77,11 @@ void expect_one_to_one(const Patch& patch, const Parametrisation& map, const Dom
     EXPECT_NEAR(sum, area(domain), 1e-9 * area(domain));
     EXPECT_EQ(characteristic(map.corners), std::pair(1L, static_cast<long>(patch.boundary_size())));
     for (Index side = 0; side < patch.side_count(); ++side) {
-        const Vec2 from = domain[side];
-        const Vec2 along = domain[(side + 1) % domain.size()] - from;
+        const PlanePoint from = domain[side];
+        const PlanePoint along = domain[(side + 1) % domain.size()] - from;
         double last = -1;
         for (Index v = patch.sides[side]; v < patch.sides[side + 1]; ++v) {
-            const Vec2 offset = map.points[v] - from;
+            const PlanePoint offset = map.points[v] - from;
             EXPECT_NEAR((offset - along * (offset.dot(along) / along.squaredNorm())).norm(), 0,
                         1e-12 * along.norm());
             EXPECT_GT(offset.dot(along), last);
@@ -268,7 +268,7 @@ TEST(Parametrisation, long_limbs_and_slivers_are_mapped_one_to_one)
             PolygonMesh tube;
             const Domain octagon = regular_polygon(8);
             for (int ring = 0; ring < rings; ++ring) {
-                for (const Vec2& p : octagon) {
+                for (const PlanePoint& p : octagon) {
                     tube.positions.emplace_back(p.x(), p.y(), ring * length);
                 }
             }
