@@ -15,6 +15,8 @@ namespace layout_embedding {
 namespace {
 
 constexpr double kDefaultQuads = 4000;
+/// About 2 GB.
+constexpr double kMostVertices = 16'000'000;
 
 double chain_length(const RefinedMesh& refined, const std::vector<Index>& chain)
 {
@@ -140,9 +142,11 @@ private:
         for (const BaseComplex::Quad& quad : base_.quads()) {
             vertices += (segments_[quad.sides[0].edge] + 1.0) * (segments_[quad.sides[1].edge] + 1);
         }
-        if (vertices >= kNone / 8) {
-            return make_error(ErrorCode::tooLarge, "the quads would have about " +
-                                                       std::to_string(vertices) + " vertices");
+        if (vertices > kMostVertices) {
+            return make_error(ErrorCode::tooLarge,
+                              "the quads would have about " +
+                                  std::to_string(static_cast<std::int64_t>(vertices)) +
+                                  " vertices, more than 16 million");
         }
         return {};
     }

@@ -49,7 +49,7 @@ struct QuadMesh {
 /// and the numbers of segments alone. Vertex order: landmarks, then edges, then faces.
 ///
 /// Errors: invalidOption (choose_segments() in apps/base_complex.hh), parametrisationFailed,
-/// tooLarge (more vertices than 32-bit ids can number).
+/// tooLarge (more than 16 million vertices).
 Result<QuadMesh> make_quad_mesh(const Layout& layout, const TriangleMesh& target,
                                 const RefinedMesh& refined, const QuadOptions& options = {});
 

@@ -80,8 +80,10 @@ const std::vector<ErrorInfo>& all_error_infos()
          "a patch could not be mapped to the plane without flipped triangles",
          "add layout edges that divide the patch"},
         {landmarkNeedsTarget, "landmarkNeedsTarget",
-         "landmarks are given as points, which say nothing without a target",
-         "load the target first"},
+         "landmarks are given as points, and there is no target that they could lie on, or one "
+         "that "
+         "was repaired",
+         "load the target first, without repair"},
     };
     return table;
 }

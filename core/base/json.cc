@@ -96,9 +96,15 @@ private:
                 return take("null");
             default:
                 value.kind = JsonValue::Kind::number;
-                return (rest_.front() == '-' || (rest_.front() >= '0' && rest_.front() <= '9')) &&
-                       parse_number(rest_, value.number);
+                return starts_number() && parse_number(rest_, value.number);
         }
+    }
+
+    /// Not-a-number and infinities are no JSON.
+    bool starts_number() const
+    {
+        const std::size_t sign = rest_.front() == '-' ? 1 : 0;
+        return sign < rest_.size() && rest_[sign] >= '0' && rest_[sign] <= '9';
     }
 
     bool parse_object(JsonValue& value, int depth)

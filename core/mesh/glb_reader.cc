@@ -1,5 +1,7 @@
 #include "mesh/glb_reader.hh"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -78,6 +80,13 @@ private:
     Error wrong(const std::string& what) const
     {
         return make_error(ErrorCode::syntaxError, subject_ + " has " + what);
+    }
+    /// Nodes and primitives may share arrays, so that a small file could stand for any number of
+    /// vertices and triangles: no more of them than the file has bytes, or a generous number.
+    std::size_t most_vertices() const
+    {
+        constexpr std::size_t kGenerous = 1'000'000;
+        return std::min<std::size_t>(std::max(bytes_.size(), kGenerous), kNone / 4);
     }
     Error unknown(const std::string& what) const
     {
@@ -244,6 +253,9 @@ private:
             if (mode < 4) {
                 continue;  // points and lines
             }
+            if (mode != 4 && mode != 5 && mode != 6) {
+                return wrong("a primitive of an unknown kind");
+            }
             if (const JsonValue* extensions = primitive.find("extensions")) {
                 if (extensions->find("KHR_draco_mesh_compression") != nullptr) {
                     return unknown("compressed meshes (Draco), which have to be unpacked first");
@@ -269,9 +281,10 @@ private:
             return status;
         }
         const std::size_t first = mesh_.positions.size();
-        if (first + positions.count >= kNone / 2) {
+        if (first + positions.count > most_vertices()) {
             return make_error(ErrorCode::tooLarge,
-                              subject_ + " has more vertices than 32-bit ids can number");
+                              subject_ + " has more than " + std::to_string(most_vertices()) +
+                                  " vertices, as meshes are used several times");
         }
         for (std::size_t v = 0; v < positions.count; ++v) {
             const Vec3 p(positions.value(v, 0), positions.value(v, 1), positions.value(v, 2));
@@ -298,6 +311,11 @@ private:
         // A mirrored frame turns triangles inside out.
         const bool mirrored = frame.topLeftCorner<3, 3>().determinant() < 0;
         const std::size_t step = mode == 4 ? 3 : 1;
+        if (mesh_.corners.size() + 3 * (count / step) > 3 * most_vertices()) {
+            return make_error(ErrorCode::tooLarge,
+                              subject_ + " has more than " + std::to_string(most_vertices()) +
+                                  " triangles, as meshes are used several times");
+        }
         for (std::size_t i = 0; i + 2 < count; i += step) {
             std::array<std::size_t, 3> places{mode == 6 ? 0 : i, i + 1, i + 2};
             if ((mode == 5 && i % 2 == 1) != mirrored) {
@@ -319,10 +337,6 @@ private:
             if (mode == 4 || (corners[0] != corners[1] && corners[1] != corners[2] &&
                               corners[2] != corners[0])) {
                 mesh_.add_face(corners);
-            }
-            if (mesh_.corners.size() >= kNone - 3) {
-                return make_error(ErrorCode::tooLarge,
-                                  subject_ + " has more corners than 32-bit ids can number");
             }
         }
         return {};
@@ -351,10 +365,12 @@ private:
             number_of(*view, "buffer", 0) != 0) {
             return unknown("data outside of the file");
         }
-        accessor.component = static_cast<int>(number_of(json, "componentType", 0));
-        if (accessor.component < 5120 || accessor.component > 5126 || accessor.component == 5124) {
+        const double component = number_of(json, "componentType", 0);
+        if (!(component >= 5120 && component <= 5126) || component != std::floor(component) ||
+            component == 5124) {
             return wrong("an array with an unknown type of numbers");
         }
+        accessor.component = static_cast<int>(component);
         const JsonValue* normalized = json.find("normalized");
         accessor.normalized = normalized != nullptr && normalized->boolean;
         const std::size_t element = components * accessor.component_size();
@@ -368,7 +384,10 @@ private:
             }
         }
         const auto [view_offset, view_length, offset, count, stride] = numbers;
-        const double end = count == 0 ? 0 : offset + (count - 1) * stride + double(element);
+        if (count == 0) {
+            return {};
+        }
+        const double end = offset + (count - 1) * stride + double(element);
         if (view_offset + view_length > static_cast<double>(binary_.size()) || end > view_length ||
             stride < static_cast<double>(element)) {
             return wrong("an array that ends behind its buffer");

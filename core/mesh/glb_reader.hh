@@ -14,7 +14,8 @@ namespace layout_embedding {
 /// nodes in double precision.
 ///
 /// `subject` begins the messages. Errors: unknownFormat (another version, compressed, sparse or
-/// external data), syntaxError (a structure that makes no sense), indexOutOfRange, tooLarge.
+/// external data), syntaxError (a structure that makes no sense), indexOutOfRange, tooLarge (parts
+/// used so often that there are more vertices or triangles than bytes, and over a million).
 /// Near-linear in the bytes.
 Result<PolygonMesh> read_glb(std::string_view bytes, std::string_view subject);
 

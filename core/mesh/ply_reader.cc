@@ -184,9 +184,6 @@ private:
 
     Status read_element(const Element& element)
     {
-        if (element.properties.empty()) {
-            return {};
-        }
         const auto has = [&](Role role) {
             return std::any_of(element.properties.begin(), element.properties.end(),
                                [&](const Property& p) { return p.role == role; });
@@ -199,6 +196,9 @@ private:
         if (is_face && !has(Role::corners)) {
             return make_error(ErrorCode::syntaxError,
                               subject_ + " has faces without a list vertex_indices");
+        }
+        if (element.properties.empty()) {
+            return {};
         }
         // The counts may lie.
         const std::size_t most = std::min<std::size_t>(

@@ -47,7 +47,7 @@ public:
     bool share(Index a, Index b) const
     {
         return a < side_of_.size() && b < side_of_.size() &&
-               (on(a, side_of_[b]) || on(b, side_of_[a]) || other(a) == other(b));
+               (on(a, side_of_[b]) || on(b, side_of_[a]));
     }
 
 private:

@@ -302,6 +302,39 @@ TEST(MeshFormats, what_is_damaged_is_refused)
               ErrorCode::unknownFormat);
 }
 
+TEST(MeshFormats, vertices_that_a_header_only_announces_do_not_exist)
+{
+    const std::string faces =
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    EXPECT_EQ(code_of("ply\nformat ascii 1.0\nelement vertex 3\n" + faces + "3 0 1 2\n"),
+              ErrorCode::syntaxError);
+    EXPECT_EQ(code_of("ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+                      "property float y\nproperty float z\n" +
+                      faces + "0 0 0\n3 0 0 0\n"),
+              ErrorCode::syntaxError);
+    // An array without elements may lie anywhere.
+    EXPECT_EQ(code_of(glb(R"({"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                          R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3",)"
+                          R"("byteOffset":4000000000,"count":0}],)"
+                          R"("bufferViews":[{"buffer":0,"byteLength":4}],"buffers":[{}]})",
+                          std::string(4, '\0'))),
+              ErrorCode::none);
+    // Ten thousand nodes with one mesh of a thousand vertices.
+    std::string nodes;
+    std::string ids;
+    for (int node = 0; node < 10000; ++node) {
+        nodes += node == 0 ? R"({"mesh":0})" : R"(,{"mesh":0})";
+        ids += (node == 0 ? "" : ",") + std::to_string(node);
+    }
+    EXPECT_EQ(code_of(glb(R"({"scenes":[{"nodes":[)" + ids + R"(]}],"nodes":[)" + nodes +
+                              R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                              R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3",)"
+                              R"("count":1000}],"bufferViews":[{"buffer":0,"byteLength":12000}],)"
+                              R"("buffers":[{}]})",
+                          std::string(12000, '\0'))),
+              ErrorCode::tooLarge);
+}
+
 TEST(MeshFormats, extensions_are_known_in_any_case)
 {
     EXPECT_EQ(format_of_file_name("a.PLY"), MeshFormat::ply);
@@ -332,8 +365,8 @@ TEST(Json, values_are_read_as_they_stand)
 TEST(Json, anything_else_is_refused_with_its_line)
 {
     for (const std::string text :
-         {"", "[1,]", "{\"a\" 1}", "{a:1}", "[1 2]", "\"a", "nul", "+1", "[", "{\"a\":1,}",
-          "\"\\x\"", "\"\\ud800\\u0041\"", "1 2", "\"\t\""}) {
+         {"", "[1,]", "{\"a\" 1}", "{a:1}", "[1 2]", "\"a", "nul", "+1", "[", "{\"a\":1,}", "-nan",
+          "-inf", "\"\\x\"", "\"\\ud800\\u0041\"", "1 2", "\"\t\""}) {
         const auto value = parse_json(text, "it");
         ASSERT_FALSE(value.ok()) << text;
         EXPECT_EQ(value.error().code, ErrorCode::syntaxError);

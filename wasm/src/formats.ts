@@ -64,6 +64,12 @@ function write(
     format: (typeof meshFormats)[number],
     { direction = [0, 0, 1], up = [0, 1, 0], width = 800 }: ExportView,
 ): Uint8Array {
+    if (direction.length !== 3 || up.length !== 3) {
+        throw new LayoutError(
+            "invalidOption",
+            "direction and up of a view are 3 numbers each; correct the option.",
+        );
+    }
     core.withCopies((copy) =>
         core.call(
             name,
@@ -104,10 +110,10 @@ function referenceFiles(core: Core, job: Handle): Record<string, Uint8Array> {
 /** Reads an `.inp` file of the reference implementation. */
 export async function readReferenceInput(
     bytes: Uint8Array,
-    name = "the reference input",
+    name?: string,
 ): Promise<ReferenceInput> {
     const core = await Core.create();
-    const subject = utf8(name);
+    const subject = utf8(`the reference input${name === undefined ? "" : ` ${name}`}`);
     const handle = core.withCopies((copy) =>
         core.call(
             "boundary_reference_read",

@@ -108,11 +108,14 @@ export class Session implements EmbeddingSession {
             record.name = input.name ?? null;
             record.sha256 = await sha256(byteArray(input.bytes, "the landmark file"));
         }
-        const names: string[] = [];
-        const given = this.givenLandmarks(input, notes, names);
+        let names: string[] = [];
+        let landmarks = this.givenLandmarks(input, notes, names);
         const { layout, target } = this.inputs();
-        const landmarks =
-            options.numbering === "loaded" ? given : throughRepairs(given, layout, target);
+        if (options.numbering !== "loaded") {
+            const ids = throughTargetRepair(landmarks, target);
+            landmarks = Uint32Array.from(throughLayoutRepair(Array.from(ids), layout));
+            names = throughLayoutRepair(names, layout);
+        }
         this.confirm(layout, target, landmarks);
         this.landmarks = { landmarks, names, notes, record };
         return { landmarks: landmarks.slice(), names: [...names], notes: [...notes] };
@@ -488,26 +491,23 @@ function throughTargetRepair(given: Uint32Array, target: Loaded): Uint32Array<Ar
     });
 }
 
-/** The same where the layout may have been repaired, too. */
-function throughRepairs(
-    given: Uint32Array,
-    layout: Loaded,
-    target: Loaded,
-): Uint32Array<ArrayBuffer> {
-    const ids = throughTargetRepair(given, target);
-    const layoutMap = layout.mesh.vertexMap;
+/**
+ * What is given per vertex of a layout's file, per vertex of the layout that a repair made of it.
+ */
+function throughLayoutRepair<T>(given: readonly T[], layout: Loaded): T[] {
+    const map = layout.mesh.vertexMap;
     // Whoever already left out the removed layout vertices is right, too.
-    if (layoutMap?.length !== ids.length || ids.length === layout.vertexCount) {
-        return ids;
+    if (map?.length !== given.length || given.length === layout.vertexCount) {
+        return [...given];
     }
-    const kept = new Uint32Array(layout.vertexCount);
-    // Backwards, so that of welded vertices the first one counts.
-    for (let vertex = ids.length - 1; vertex >= 0; --vertex) {
-        const mapped = layoutMap[vertex] ?? -1;
+    const kept: T[] = [];
+    // Of welded vertices the first one counts.
+    given.forEach((value, vertex) => {
+        const mapped = map[vertex] ?? -1;
         if (mapped >= 0) {
-            kept[mapped] = ids[vertex] ?? 0;
+            kept[mapped] ??= value;
         }
-    }
+    });
     return kept;
 }
 
