@@ -1,6 +1,7 @@
 #include "apps/quad_relaxation.hh"
 
 #include <algorithm>
+#include <cmath>
 
 #include "patches/domain.hh"
 
@@ -43,6 +44,8 @@ public:
                 break;
             }
         }
+        mend(rounds);
+        untangle(rounds);
         mend(rounds);
     }
 
@@ -110,7 +113,9 @@ private:
             bool improved = false;
             for (Index v = 0; v < mesh_.positions.size(); ++v) {
                 if (!fixed_[v] && quality(v) < kBad) {
-                    improved = look_around(v) || improved;
+                    improved = look_around(
+                                   v, [&](Index w) { return quality(w); }, 1e-3) ||
+                               improved;
                 }
             }
             if (!improved) {
@@ -119,7 +124,79 @@ private:
         }
     }
 
-    bool look_around(Index v)
+    /// The worst quad alone says nothing about the way out where several are folded over each
+    /// other: there, a sum over all corners goes down, finite for folded ones (Escobar et al.,
+    /// "Simultaneous untangling and smoothing of tetrahedral meshes", 2003).
+    void untangle(Index rounds)
+    {
+        constexpr double kBad = 0.05;
+        for (Index round = 0; round < rounds; ++round) {
+            std::vector<bool> active(mesh_.positions.size(), false);
+            bool any = false;
+            for (Index v = 0; v < mesh_.positions.size(); ++v) {
+                if (quality(v) < kBad) {
+                    any = true;
+                    for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+                        for (const Index w : mesh_.quads[quads_[place]]) {
+                            active[w] = true;
+                        }
+                    }
+                }
+            }
+            bool improved = false;
+            for (Index v = 0; any && v < mesh_.positions.size(); ++v) {
+                if (active[v] && !fixed_[v]) {
+                    improved = look_around(
+                                   v, [&](Index w) { return -distortion(w); }, 1e-6) ||
+                               improved;
+                }
+            }
+            if (!improved) {
+                return;
+            }
+        }
+    }
+
+    /// How far the corners of the quads around v are from those of squares: at a corner with the
+    /// edges a and b, (a^2 + b^2) / (d + sqrt(d^2 + e^2)), where d is the signed area between them
+    /// as seen along the surface's normal, and e small.
+    double distortion(Index v) const
+    {
+        constexpr double kSmall = 1e-2;
+        double size = 0;
+        double sum = 0;
+        for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+            const auto& quad = mesh_.quads[quads_[place]];
+            for (std::size_t i = 0; i < 4; ++i) {
+                size +=
+                    (mesh_.positions[quad[(i + 1) % 4]] - mesh_.positions[quad[i]]).squaredNorm();
+            }
+        }
+        size *= kSmall / (4.0 * (offsets_[v + 1] - offsets_[v]));
+        for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+            const auto& quad = mesh_.quads[quads_[place]];
+            Vec3 up(0, 0, 0);
+            for (const Index corner : quad) {
+                up += face_normal(target_, mesh_.points[corner].face);
+            }
+            const double length = up.norm();
+            up = length > 0 ? Vec3(up / length) : up;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Vec3& here = mesh_.positions[quad[i]];
+                const Vec3 a = mesh_.positions[quad[(i + 1) % 4]] - here;
+                const Vec3 b = mesh_.positions[quad[(i + 3) % 4]] - here;
+                const double d = a.cross(b).dot(up);
+                const double positive = d + std::sqrt(d * d + size * size);
+                sum += (a.squaredNorm() + b.squaredNorm()) / std::max(positive, 1e-300);
+            }
+        }
+        return sum;
+    }
+
+    /// Moves v to the place around it that has the most of `value`, a function of vertices; false
+    /// if that is no more than a share `least` better.
+    template <typename Value>
+    bool look_around(Index v, const Value& value, double least)
     {
         static const Domain directions = regular_polygon(8);
         const Vec3 old_position = mesh_.positions[v];
@@ -136,7 +213,7 @@ private:
         normal.cwiseAbs().minCoeff(&axis);
         const Vec3 across = normal.cross(Vec3::Unit(axis)).normalized();
         const Vec3 along = normal.cross(across);
-        const double before = quality(v);
+        const double before = value(v);
         double best = before;
         SurfacePoint best_point = old_point;
         for (const double step : {0.4, 0.15, 0.05, 0.015}) {
@@ -146,15 +223,15 @@ private:
                     old_position +
                         step * length * (direction.x() * across + direction.y() * along));
                 mesh_.positions[v] = position_of(target_, mesh_.points[v]);
-                if (const double quality_here = quality(v); quality_here > best) {
-                    best = quality_here;
+                if (const double here = value(v); here > best) {
+                    best = here;
                     best_point = mesh_.points[v];
                 }
             }
         }
         mesh_.points[v] = best_point;
         mesh_.positions[v] = best > before ? position_of(target_, best_point) : old_position;
-        return best > before + 1e-3;
+        return best > before + least * std::max(1.0, std::abs(before));
     }
 
     const TriangleMesh& target_;

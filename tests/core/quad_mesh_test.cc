@@ -319,7 +319,7 @@ TEST_P(QuadsOfShapes, have_few_flipped_quads_and_the_same_connectivity_for_all_m
 
 INSTANTIATE_TEST_SUITE_P(Classes, QuadsOfShapes,
                          testing::Values("quadruped", "hand", "bust", "machine_part", "cut_hand"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& parameter) { return parameter.param; });
 
 }  // namespace
 }  // namespace layout_embedding
