@@ -405,14 +405,20 @@ export class Actions {
     private async readLandmarks(file: File): Promise<void> {
         await this.attempt(`Reading ${file.name}`, async () => {
             const bytes = await file.arrayBuffer();
-            const { landmarks, notes } = await this.engine.setLandmarks({ name: file.name, bytes });
-            this.replaceLandmarks(landmarks, file.name, notes);
+            const info = await this.engine.setLandmarks({ name: file.name, bytes });
+            this.replaceLandmarks(info.landmarks, file.name, info.notes, info.names);
         });
     }
 
-    private replaceLandmarks(ids: Uint32Array, source: string, notes: readonly string[]): void {
+    private replaceLandmarks(
+        ids: Uint32Array,
+        source: string,
+        notes: readonly string[],
+        names: readonly string[] = [],
+    ): void {
         const { notices, landmarks } = this.store.get();
-        this.landmarks.replace(placedLandmarks(ids, source, landmarks?.names));
+        const known = names.length > 0 ? names : landmarks?.names;
+        this.landmarks.replace(placedLandmarks(ids, source, known));
         this.store.update({ placing: null, notices: [...notices, ...notes] });
     }
 

@@ -7,6 +7,18 @@ export interface Sighting {
     readonly polygons: boolean;
 }
 
+type Look = Pick<Sighting, "vertices" | "polygons">;
+
+const landmarkEndings = new Set(["txt", "vts", "json", "pp"]);
+
+/** Formats that say at their beginning how large they are. */
+const quickLooks: Record<string, (file: File) => Promise<Look>> = {
+    off: lookAtOff,
+    ply: lookAtPly,
+    stl: lookAtStl,
+    glb: lookAtGlb,
+};
+
 const newline = 10;
 const space = 32;
 const tab = 9;
@@ -16,10 +28,11 @@ const tab = 9;
  * content. What cannot be understood counts as a mesh: the core then says what is wrong with it.
  */
 export async function look(file: File): Promise<Sighting> {
-    const extension = /\.([^.]*)$/.exec(file.name)?.[1]?.toLowerCase();
-    if (extension === "txt" || extension === "vts")
+    const extension = /\.([^.]*)$/.exec(file.name)?.[1]?.toLowerCase() ?? "";
+    if (landmarkEndings.has(extension))
         return { file, kind: "landmarks", vertices: 0, polygons: false };
-    if (extension === "off") return { file, kind: "mesh", ...(await lookAtOff(file)) };
+    const quickLook = quickLooks[extension];
+    if (quickLook) return { file, kind: "mesh", ...(await quickLook(file)) };
 
     let vertices = 0;
     let polygons = false;
@@ -56,9 +69,49 @@ export async function look(file: File): Promise<Sighting> {
     return { file, kind: "mesh", vertices, polygons };
 }
 
-async function lookAtOff(file: File): Promise<{ vertices: number; polygons: boolean }> {
+async function lookAtOff(file: File): Promise<Look> {
     const head = (await file.slice(0, 4096).text()).replace(/#.*/g, "");
     const vertices = Number(/(\d+)\s+\d+\s+\d+/.exec(head)?.[1] ?? 0);
+    return { vertices, polygons: false };
+}
+
+async function lookAtPly(file: File): Promise<Look> {
+    const head = await file.slice(0, 16384).text();
+    const vertices = Number(/element vertex (\d+)/.exec(head)?.[1] ?? 0);
+    return { vertices, polygons: false };
+}
+
+/** Two triangles make a vertex, about, and in text 250 characters a triangle. */
+async function lookAtStl(file: File): Promise<Look> {
+    const head = new DataView(await file.slice(0, 84).arrayBuffer());
+    const count = head.byteLength === 84 ? head.getUint32(80, true) : 0;
+    const isBinary = file.size === 84 + 50 * count;
+    return { vertices: Math.round(isBinary ? count / 2 : file.size / 500), polygons: false };
+}
+
+interface GlbDocument {
+    readonly accessors?: readonly { readonly count?: number }[];
+    readonly meshes?: readonly {
+        readonly primitives?: readonly {
+            readonly attributes?: { readonly POSITION?: number };
+        }[];
+    }[];
+}
+
+async function lookAtGlb(file: File): Promise<Look> {
+    const head = new DataView(await file.slice(0, 20).arrayBuffer());
+    const length = head.byteLength === 20 ? head.getUint32(12, true) : 0;
+    let vertices = 0;
+    try {
+        const { accessors, meshes } = JSON.parse(
+            await file.slice(20, 20 + length).text(),
+        ) as GlbDocument;
+        for (const { primitives } of meshes ?? [])
+            for (const { attributes } of primitives ?? [])
+                vertices += accessors?.[attributes?.POSITION ?? -1]?.count ?? 0;
+    } catch {
+        // The core will say what is wrong with it.
+    }
     return { vertices, polygons: false };
 }
 
