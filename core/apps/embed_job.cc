@@ -9,6 +9,7 @@
 #include "embedding/realisation.hh"
 #include "embedding/straightening.hh"
 #include "embedding/weak_to_normal_form.hh"
+#include "patches/fairing.hh"
 #include "search/exact_solver.hh"
 #include "search/greedy_solver.hh"
 #include "search/sequence_solver.hh"
@@ -103,6 +104,8 @@ struct EmbedJob::Implementation {
     EmbedStatus final_status = EmbedStatus::running;  // once an incumbent is to be realised
     EmbedStatus search_status = EmbedStatus::running;
     std::unique_ptr<Straightening> straightening;  // while paths get their shape
+    std::unique_ptr<Fairing> fairing;              // after that, for fair ones
+    bool shape_ended = false;                      // by cancel()
     double shown_progress = 0;
     Length root_bound = 0;
     std::unique_ptr<LandmarkDoubts> doubts;  // while alternatives are compared
@@ -374,18 +377,35 @@ struct EmbedJob::Implementation {
                 return;
             }
             straightening = std::make_unique<Straightening>(std::move(*form), problem.landmarks);
+            shape_ended = false;
             shown_progress = 0;
-        } else if (straightening->step()) {
-            if (straightening->progress() > shown_progress + kProgressStep) {
-                shown_progress = straightening->progress();
-                emit(EventKind::progress, shown_progress);
-            }
+        } else if (fairing ? fairing->step() : straightening->step()) {
+            show_shape_progress();
+        } else if (fairing) {
+            cut(fairing->take());
+            fairing.reset();
+            straightening.reset();
+            return;
+        } else if (options.shape == PathShape::fair && !shape_ended) {
+            fairing = std::make_unique<Fairing>(*problem.layout, straightening->take());
         } else {
             cut(straightening->take());
             straightening.reset();
             return;
         }
         result.shape_seconds += static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+    }
+
+    void show_shape_progress()
+    {
+        double progress = fairing ? fairing->progress() : straightening->progress();
+        if (options.shape == PathShape::fair) {
+            progress = (fairing ? 1 + progress : progress) / 2;
+        }
+        if (progress > shown_progress + kProgressStep) {
+            shown_progress = progress;
+            emit(EventKind::progress, progress);
+        }
     }
 
     void measure_edges(const NormalForm& even)
@@ -420,7 +440,12 @@ struct EmbedJob::Implementation {
     void end_shape()
     {
         if (phase == EmbedPhase::realise && straightening) {
-            straightening->finish();
+            if (fairing) {
+                fairing->finish();
+            } else {
+                straightening->finish();
+            }
+            shape_ended = true;
             final_status = EmbedStatus::cancelled;
         }
     }

@@ -9,6 +9,7 @@
 #include "mesh/mesh_writer.hh"
 #include "patches/parametrisation.hh"
 #include "patches/patch.hh"
+#include "patches/patch_shape.hh"
 #include "patches/point_location.hh"
 
 namespace layout_embedding {
@@ -17,15 +18,6 @@ namespace {
 constexpr double kDefaultQuads = 4000;
 /// About 2 GB.
 constexpr double kMostVertices = 16'000'000;
-
-double chain_length(const RefinedMesh& refined, const std::vector<Index>& chain)
-{
-    double length = 0;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-        length += (refined.positions[chain[i]] - refined.positions[chain[i - 1]]).norm();
-    }
-    return length;
-}
 
 double surface_area(const TriangleMesh& mesh)
 {

@@ -11,7 +11,8 @@ enum class PathShape : std::uint32_t {
     even,
     /// As short as the gaps between neighbours allow.
     shortened,
-    /// Shortened, then re-traced in harmonic parametrisations of the patches beside them.
+    /// Shortened, then traced anew as straight lines in parametrisations of the patches beside them
+    /// where that makes thin patches rounder (patches/fairing.hh).
     fair,
 };
 

@@ -1,5 +1,7 @@
 #include "patches/domain.hh"
 
+#include <algorithm>
+
 namespace layout_embedding {
 namespace {
 
@@ -36,6 +38,29 @@ Domain regular_polygon(Index n)
     }
     if (n % 2 == 0) {
         corners[n / 2] = PlanePoint(-1, 0);
+    }
+    return corners;
+}
+
+Domain inscribed_polygon(std::span<const double> lengths)
+{
+    constexpr double kLeastShare = 0.1;
+    double sum = 0;
+    for (const double length : lengths) {
+        sum += length;
+    }
+    const double mean = sum > 0 ? sum / static_cast<double>(lengths.size()) : 1;
+    double total = 0;
+    for (const double length : lengths) {
+        total += std::max(length, kLeastShare * mean);
+    }
+    Domain corners;
+    double reached = 0;
+    for (const double length : lengths) {
+        const double angle = 2 * kPi * (reached / total);
+        const PlanePoint corner = unit_vector(angle <= kPi ? angle : 2 * kPi - angle);
+        corners.emplace_back(corner.x(), angle <= kPi ? corner.y() : -corner.y());
+        reached += std::max(length, kLeastShare * mean);
     }
     return corners;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/types.hh"
@@ -19,6 +20,11 @@ Domain regular_polygon(Index n);
 
 /// The rectangle with the corners (0, 0), (width, 0), (width, height), (0, height).
 Domain rectangle(double width, double height);
+
+/// A polygon with its corners on the unit circle, the first one at (1, 0), whose sides span angles
+/// proportional to `lengths` (#sides >= 3 of them, none negative); none less than a tenth of the
+/// mean. The same bits on every platform, too.
+Domain inscribed_polygon(std::span<const double> lengths);
 
 double area(const Domain& domain);
 

@@ -1,7 +1,7 @@
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import path from "node:path";
-import { Session, type EmbedResult, type ExportFormat } from "layout-embedding";
+import { Session, type EmbedResult, type ExportFormat, type QualityReport } from "layout-embedding";
 import { Mesh, type BufferAttribute } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
@@ -263,5 +263,51 @@ describe("quads", () => {
         expect(written.match(/^f /gm)?.length).toBe(quads.count);
         const none = await run(["quads", "cube.obj", "sphere.obj"], { cwd: folder });
         expect(none.exitCode).toBe(2);
+    });
+});
+
+describe("the shape fair and the quality report", () => {
+    const total = (values: { length: number }[]) =>
+        values.reduce((sum, { length }) => sum + length, 0);
+
+    it("go together: no patch is thinner than the thinnest of short paths", async () => {
+        const short = await session.reshape("short");
+        const before = await session.qualityReport();
+        const fair = await session.reshape("fair");
+        const after = await session.qualityReport();
+        expect(await session.check({ refined: fair.refined!, edges: fair.edges })).toEqual([]);
+        expect(fair.exactCost).toBe(short.exactCost);
+        for (const [result, report] of [
+            [short, before],
+            [fair, after],
+        ] as const) {
+            expect(report.overall.length).toBeCloseTo(total(result.edges), 9);
+            expect(report.overall.cost).toBeCloseTo(result.cost, 9);
+            expect(report.patches).toHaveLength(6);
+            // The patches of a closed layout cover the sphere, which has about 4 pi.
+            expect(report.overall.area).toBeGreaterThan(11);
+            expect(report.overall.area).toBeLessThan(4 * Math.PI);
+            for (const { isoperimetricQuotient, stretch } of report.patches) {
+                expect(isoperimetricQuotient).toBeGreaterThan(0);
+                expect(isoperimetricQuotient).toBeLessThan(1.5);
+                expect(stretch).toBeGreaterThan(1);
+            }
+        }
+        expect(after.overall.leastQuotient).toBeGreaterThanOrEqual(
+            before.overall.leastQuotient * (1 - 1e-9),
+        );
+    });
+
+    it("are options of the command line", async () => {
+        const args = ["embed", "cube.obj", "sphere.obj", "--shape", "fair", "--report"];
+        const { exitCode, stdout } = await run([...args, "--output", "fair", "--json"], {
+            cwd: folder,
+        });
+        expect(exitCode).toBe(0);
+        const document = JSON.parse(stdout) as { shape: string; report: QualityReport };
+        expect(document.shape).toBe("fair");
+        expect(document.report.edges).toHaveLength(12);
+        const written = await readFile(path.join(folder, "fair", "report.json"), "utf8");
+        expect(JSON.parse(written)).toEqual(document.report);
     });
 });

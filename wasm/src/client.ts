@@ -24,6 +24,7 @@ import type {
     ReshapeOptions,
     QuadMesh,
     QuadOptions,
+    QualityReport,
     SolveOptions,
     TargetInfo,
     TemplateLayout,
@@ -263,6 +264,10 @@ class WorkerSession implements EmbeddingSession {
 
     quads(options: QuadOptions = {}): Promise<QuadMesh> {
         return this.call("quads", [options]) as Promise<QuadMesh>;
+    }
+
+    qualityReport(): Promise<QualityReport> {
+        return this.call("qualityReport", []) as Promise<QualityReport>;
     }
 
     check(claim: EmbeddingClaim): Promise<Violation[]> {

@@ -167,6 +167,6 @@ function finite(value: number): number | null {
     return Number.isFinite(value) ? value : null;
 }
 
-function jsonBytes(document: unknown): Uint8Array {
+export function jsonBytes(document: unknown): Uint8Array {
     return new TextEncoder().encode(`${JSON.stringify(document)}\n`);
 }

@@ -29,7 +29,7 @@ const algorithms: Algorithm[] = [
     "branch-and-bound",
     "exact",
 ];
-const shapes: PathShape[] = ["even", "short"];
+const shapes: PathShape[] = ["even", "short", "fair"];
 const statuses: (EmbedStatus | "running" | "failed")[] = [
     "running",
     "optimal",
@@ -88,7 +88,7 @@ export function jobOptions(options: SolveOptions): JobOptions {
         throw refuse("algorithm", checked.algorithm, algorithms.join(" or "));
     }
     if (!shapes.includes(checked.shape)) {
-        throw refuse("shape", checked.shape, shapes.join(" or "));
+        throw refuse("shape", checked.shape, shapes.join(", "));
     }
     if (!(checked.gap >= 0 && checked.gap <= 1)) {
         throw refuse("gap", checked.gap, "a number from 0 to 1");

@@ -15,6 +15,7 @@ import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions 
 import type { InitOptions } from "./loader.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
 import { makeQuads } from "./quads.js";
+import { qualityReport } from "./quality.js";
 import type {
     EmbeddingClaim,
     EmbeddingSession,
@@ -32,6 +33,7 @@ import type {
     ReshapeOptions,
     QuadMesh,
     QuadOptions,
+    QualityReport,
     SolveOptions,
     TargetInfo,
     TemplateLayout,
@@ -241,6 +243,12 @@ export class Session implements EmbeddingSession {
 
     async quads(options: QuadOptions = {}): Promise<QuadMesh> {
         return Promise.resolve(makeQuads(this.core, this.embeddedJob(), options));
+    }
+
+    async qualityReport(): Promise<QualityReport> {
+        const job = this.embeddedJob();
+        const edges = (this.solved?.layoutEdges.length ?? 0) / 2;
+        return Promise.resolve(qualityReport(this.core, job, edges));
     }
 
     /** What embedding.json says of the last solve(), also where no embedding was found. */

@@ -141,9 +141,10 @@ export type Algorithm = "greedy" | "praun" | "kraevoy" | "schreiner" | "branch-a
 
 /**
  * How paths run within their homotopy classes. `even`: crossing the target's edges at even distances,
- * which looks jagged; `short`: as straight as neighbouring paths allow.
+ * which looks jagged; `short`: as straight as neighbouring paths allow; `fair`: short, then traced anew
+ * between the patches beside them where that makes thin patches rounder.
  */
-export type PathShape = "even" | "short";
+export type PathShape = "even" | "short" | "fair";
 
 /** Why a job ended. */
 export type EmbedStatus =
@@ -431,6 +432,51 @@ export interface QuadMesh {
     obj: Uint8Array;
 }
 
+/** How good the paths and patches of an embedding are, in the target's units. */
+export interface QualityReport {
+    /** Per layout edge. */
+    edges: {
+        id: number;
+        /** In the path-graph metric. */
+        cost: number;
+        /** The length of the chain on the surface in the shape `even`, before smoothing. */
+        evenLength: number;
+        /** The length of the chain on the surface as it is. */
+        length: number;
+        /**
+         * How far it is from straight, in degrees: over its inner vertices, the sum of what the
+         * smaller of the two angles between it and itself lacks to 180 degrees; 0 for a locally
+         * shortest path.
+         */
+        turning: number;
+    }[];
+    /** Per layout face. */
+    patches: {
+        face: number;
+        area: number;
+        perimeter: number;
+        /** 4 pi area / perimeter squared: 1 for a flat disk, near 0 for a thin patch. */
+        isoperimetricQuotient: number;
+        /**
+         * Root mean square stretch of the patch's map onto a rectangle (four sides) or a regular
+         * polygon: 1 for an isometry, else larger; null where there is no such map in double
+         * precision.
+         */
+        stretch: number | null;
+    }[];
+    /** Sums over edges and patches, and the worst of the patches. */
+    overall: {
+        cost: number;
+        evenLength: number;
+        length: number;
+        turning: number;
+        area: number;
+        leastQuotient: number;
+        meanQuotient: number;
+        largestStretch: number | null;
+    };
+}
+
 /** An `.inp` file of the paper's reference implementation. */
 export interface ReferenceInput {
     /** The files of layout and target, relative to this one. */
@@ -495,6 +541,8 @@ export interface EmbeddingSession {
     ): Promise<Record<string, Uint8Array>>;
     /** A quad mesh whose base complex is the last embedding. */
     quads(options?: QuadOptions): Promise<QuadMesh>;
+    /** How good the last embedding is. */
+    qualityReport(): Promise<QualityReport>;
     /** What is wrong with a claimed embedding; empty if it is valid. */
     check(claim: EmbeddingClaim): Promise<Violation[]>;
     /** Frees everything; the session cannot be used any more. */

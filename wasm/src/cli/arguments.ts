@@ -24,6 +24,8 @@ export interface EmbedCommand {
     /** Further formats to write. */
     formats: ExportFormat[];
     view: ExportView;
+    /** Whether to write a report on paths and patches. */
+    report: boolean;
     quiet: boolean;
     json: boolean;
     solve: SolveOptions;
@@ -83,6 +85,7 @@ const embedOptions = {
     output: { type: "string" },
     format: { type: "string", multiple: true },
     view: { type: "string" },
+    report: { type: "boolean" },
     quiet: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
 
@@ -210,6 +213,7 @@ function embedCommand(
         quads,
         formats,
         view: view(values.view),
+        report: values.report === true,
         quiet: values.quiet === true,
         json: values.json === true,
         solve,

@@ -1,8 +1,8 @@
 // layout-embedding embed
 import { LayoutError } from "../errors.js";
-import type { EmbeddingDocument } from "../files.js";
+import { jsonBytes, type EmbeddingDocument } from "../files.js";
 import { Session } from "../session.js";
-import type { EmbedResult, QuadMesh } from "../types.js";
+import type { EmbedResult, QuadMesh, QualityReport } from "../types.js";
 import type { EmbedCommand } from "./arguments.js";
 import { readInput, readReference } from "./input_files.js";
 import { exitCodes, type Outcome } from "./outcome.js";
@@ -98,6 +98,7 @@ async function finish(
         };
     }
     const quads = command.quads === null ? null : await session.quads(command.quads);
+    const report = command.report ? await session.qualityReport() : null;
     const files =
         output === null
             ? []
@@ -105,14 +106,33 @@ async function finish(
                   ...(await session.exportFiles()),
                   ...(await session.exportAs(command.formats, command.view)),
                   ...(quads === null ? {} : { "quads.obj": quads.obj }),
+                  ...(report === null ? {} : { "report.json": jsonBytes(report) }),
               });
+    const summary = [
+        ...(quads === null ? [] : [quadText(quads)]),
+        ...(report === null ? [] : [reportText(report)]),
+        summaryText(document, files),
+    ];
     return {
         exitCode: interrupted ? exitCodes.interrupted : exitCodes.success,
-        text: command.quiet
-            ? ""
-            : (quads === null ? "" : `${quadText(quads)}\n`) + summaryText(document, files),
-        document: { ...document, ...(quads === null ? {} : { quads: quadDocument(quads) }), files },
+        text: command.quiet ? "" : summary.join("\n"),
+        document: {
+            ...document,
+            ...(quads === null ? {} : { quads: quadDocument(quads) }),
+            ...(report === null ? {} : { report }),
+            files,
+        },
     };
+}
+
+function reportText({ overall }: QualityReport): string {
+    const { evenLength, length, turning, leastQuotient, meanQuotient, largestStretch } = overall;
+    return (
+        `paths ${length.toPrecision(8)} long, ${evenLength.toPrecision(8)} before smoothing, ` +
+        `turning ${turning.toFixed(1)} degrees in all; isoperimetric quotient of the patches ` +
+        `${leastQuotient.toFixed(3)} at least, ${meanQuotient.toFixed(3)} on average; stretch of ` +
+        `their maps ${largestStretch?.toFixed(2) ?? "unknown"} at most`
+    );
 }
 
 function quadDocument({ faces, subdivided, loops, statistics }: QuadMesh) {

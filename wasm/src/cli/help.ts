@@ -36,7 +36,10 @@ Options of embed
   --memory-limit MB    refuse what would need more memory
   --seed N             seed of the tie-breaking perturbation (default 1)
   --shape NAME         short (default): paths as straight as their neighbours allow; even: crossing
-                       the target's edges at even distances
+                       the target's edges at even distances; fair: short, then traced anew where
+                       that makes thin patches rounder
+  --report             report on lengths, roundness and distortion of every path and patch:
+                       report.json, and in the object of --json
   --quiet              print nothing but errors
 
 Options of quads, beside those of embed

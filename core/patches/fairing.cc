@@ -1,0 +1,396 @@
+#include "patches/fairing.hh"
+
+#include <algorithm>
+#include <utility>
+
+#include "embedding/crossing_room.hh"
+#include "embedding/realisation.hh"
+#include "patches/parametrisation.hh"
+#include "patches/patch_shape.hh"
+#include "patches/patch_union.hh"
+#include "patches/straight_line.hh"
+
+namespace layout_embedding {
+namespace {
+
+/// By how much a trace has to raise the smaller quotient of its patches.
+constexpr double kLeastGain = 0.01;
+constexpr double kRounding = 1e-9;
+
+/// The edge of a mesh between two vertices, kNone if there is none.
+Index edge_between(const TriangleMesh& mesh, Index a, Index b)
+{
+    const Index start = mesh.outgoing(a);
+    Index h = start;
+    do {
+        if (mesh.head(h) == b) {
+            return mesh.edge(h);
+        }
+        if (mesh.tail(TriangleMesh::previous(h)) == b) {
+            return mesh.edge(TriangleMesh::previous(h));
+        }
+        h = mesh.rotated_ccw(h);
+    } while (h != kNone && h != start);
+    return kNone;
+}
+
+/// Where vertices of a parametrised disk lie on the target: at a vertex, on an edge, or inside of a
+/// face.
+class TargetPlaces {
+public:
+    TargetPlaces(const TriangleMesh& target, const RefinedMesh& refined, const Patch& patch,
+                 const Parametrisation& map)
+        : target_(target), refined_(refined), patch_(patch), map_(map)
+    {}
+
+    /// The edge of the target that two vertices lie on or at the ends of, kNone if there is none.
+    /// Vertices of one triangle have one iff the triangle's side is a part of it.
+    Index common_edge(Index v, Index w) const
+    {
+        const Spot a = spot_of(v);
+        const Spot b = spot_of(w);
+        if (a.edge != kNone || b.edge != kNone) {
+            const Spot& on_edge = a.edge != kNone ? a : b;
+            const Spot& other = a.edge != kNone ? b : a;
+            const Index h = target_.halfedge(on_edge.edge);
+            const bool common = other.edge == on_edge.edge ||
+                                (other.vertex != kNone && (other.vertex == target_.tail(h) ||
+                                                           other.vertex == target_.head(h)));
+            return common ? on_edge.edge : kNone;
+        }
+        return a.vertex == kNone || b.vertex == kNone ? kNone
+                                                      : edge_between(target_, a.vertex, b.vertex);
+    }
+
+    /// Of a vertex on an edge or at its end.
+    double parameter_on(Index edge, Index v) const
+    {
+        const Spot spot = spot_of(v);
+        if (spot.vertex != kNone) {
+            return spot.vertex == target_.tail(target_.halfedge(edge)) ? 0 : 1;
+        }
+        return spot.parameter;
+    }
+
+private:
+    struct Spot {
+        Index vertex = kNone;
+        Index edge = kNone;
+        double parameter = 0;
+    };
+
+    Spot spot_of(Index v) const
+    {
+        if (v < patch_.vertices.size()) {
+            return refined_spot(patch_.vertices[v]);
+        }
+        const auto& [a, b] = map_.splits[v - patch_.vertices.size()];
+        Spot spot;
+        spot.edge = common_edge(a, b);
+        if (spot.edge != kNone) {
+            spot.parameter = (parameter_on(spot.edge, a) + parameter_on(spot.edge, b)) / 2;
+        }
+        return spot;
+    }
+
+    Spot refined_spot(Index vertex) const
+    {
+        if (vertex < target_.vertex_count()) {
+            return {vertex, kNone, 0};
+        }
+        const Index k = vertex - target_.vertex_count();
+        const auto& barycentrics = refined_.vertex_barycentrics[k];
+        // Crossings lie on the halfedge that gives their edge its direction.
+        Index i = 0;
+        while (!(barycentrics[i] > 0 && barycentrics[TriangleMesh::next(i)] > 0)) {
+            ++i;
+        }
+        return {kNone, target_.edge(3 * refined_.vertex_faces[k] + i),
+                barycentrics[TriangleMesh::next(i)]};
+    }
+
+    const TriangleMesh& target_;
+    const RefinedMesh& refined_;
+    const Patch& patch_;
+    const Parametrisation& map_;
+};
+
+Index place_in(std::span<const Index> halfedges, Index halfedge)
+{
+    return static_cast<Index>(std::find(halfedges.begin(), halfedges.end(), halfedge) -
+                              halfedges.begin());
+}
+
+double worst_of(const std::vector<double>& quotients)
+{
+    return quotients.empty() ? 0 : *std::min_element(quotients.begin(), quotients.end());
+}
+
+}  // namespace
+
+Fairing::Fairing(const Layout& layout, NormalForm form, FairingOptions options)
+    : layout_(layout),
+      options_(options),
+      original_(std::move(form)),
+      waiting_(layout.edge_count()),
+      attempts_(layout.edge_count(), 0)
+{
+    for (Index edge = 0; edge < layout.edge_count(); ++edge) {
+        const Index left = layout.face(2 * edge);
+        const Index right = layout.face(2 * edge + 1);
+        waiting_[edge] = left != kNone && right != kNone && left != right;
+    }
+}
+
+bool Fairing::step()
+{
+    switch (stage_) {
+        case Stage::choose:
+            choose();
+            break;
+        case Stage::trace:
+            trace(batch_[traces_.size()]);
+            break;
+        case Stage::compare:
+            compare();
+            break;
+        case Stage::done:
+            break;
+    }
+    return stage_ != Stage::done;
+}
+
+std::optional<Fairing::State> Fairing::state_of(std::vector<Path> paths) const
+{
+    const TriangleMesh& mesh = original_.mesh();
+    NormalForm form(mesh, static_cast<Index>(paths.size()));
+    struct Crossing {
+        Index edge;
+        double parameter;
+        Index id;
+    };
+    std::vector<Crossing> crossings;
+    for (Index strand = 0; strand < paths.size(); ++strand) {
+        for (const Place& place : paths[strand]) {
+            const bool crosses = place.halfedge != kNone;
+            const Index id =
+                crosses ? form.add_crossing(place.halfedge) : form.add_vertex(place.vertex);
+            form.append_to_strand(strand, id);
+            if (crosses) {
+                form.set_parameter(id, place.parameter);
+                crossings.push_back({mesh.edge(place.halfedge), place.parameter, id});
+            }
+        }
+    }
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+        return a.edge != b.edge ? a.edge < b.edge : a.parameter < b.parameter;
+    });
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+        if (i > 0 && crossings[i].edge == crossings[i - 1].edge &&
+            !(crossings[i].parameter > crossings[i - 1].parameter)) {
+            return std::nullopt;
+        }
+        form.append_to_edge(crossings[i].id);
+    }
+    form.remove_bigons();
+    form.compact();
+    keep_gaps(form, options_.spacing);
+    auto refined = cut_along(layout_, form);
+    if (!refined) {
+        return std::nullopt;
+    }
+    auto patches = patches_of(layout_, *refined);
+    if (!patches) {
+        return std::nullopt;
+    }
+    std::vector<double> quotients;
+    for (const PatchShape& shape : patch_shapes(layout_, *refined)) {
+        quotients.push_back(shape.quotient());
+    }
+    for (Index strand = 0; strand < paths.size(); ++strand) {
+        paths[strand].clear();
+        for (Index id = form.first(strand); id != kNone; id = form.element(id).next) {
+            const NormalForm::Element& e = form.element(id);
+            paths[strand].push_back({e.vertex, e.halfedge, e.parameter});
+        }
+    }
+    return State{std::move(paths), std::move(form), std::move(*refined), std::move(*patches),
+                 std::move(quotients)};
+}
+
+double Fairing::quotient_beside(const State& state, Index edge) const
+{
+    return std::min(state.quotients[layout_.face(2 * edge)],
+                    state.quotients[layout_.face(2 * edge + 1)]);
+}
+
+void Fairing::choose()
+{
+    if (!state_) {
+        std::vector<Path> paths(original_.strand_count());
+        for (Index strand = 0; strand < paths.size(); ++strand) {
+            for (Index id = original_.first(strand); id != kNone; id = original_.element(id).next) {
+                const NormalForm::Element& e = original_.element(id);
+                paths[strand].push_back({e.vertex, e.halfedge, e.parameter});
+            }
+        }
+        state_ = state_of(std::move(paths));
+        if (!state_) {
+            stage_ = Stage::done;
+            return;
+        }
+        first_worst_ = worst_of(state_->quotients);
+    }
+    std::vector<std::pair<double, Index>> order;
+    for (Index edge = 0; edge < layout_.edge_count(); ++edge) {
+        if (waiting_[edge]) {
+            order.emplace_back(quotient_beside(*state_, edge), edge);
+        }
+    }
+    progress_ = std::max(progress_, 1 - static_cast<double>(order.size()) /
+                                            std::max(Index{1}, layout_.edge_count()));
+    if (order.empty()) {
+        conclude();
+        return;
+    }
+    std::sort(order.begin(), order.end());
+    batch_.clear();
+    traces_.clear();
+    std::vector<bool> used(layout_.face_count(), false);
+    for (const auto& [quotient, edge] : order) {
+        const Index left = layout_.face(2 * edge);
+        const Index right = layout_.face(2 * edge + 1);
+        if (!used[left] && !used[right]) {
+            used[left] = used[right] = true;
+            batch_.push_back(edge);
+        }
+    }
+    stage_ = Stage::trace;
+}
+
+void Fairing::trace(Index edge)
+{
+    waiting_[edge] = false;
+    ++attempts_[edge];
+    traces_.push_back(straightened(edge).value_or(Path()));
+    if (traces_.size() == batch_.size()) {
+        stage_ = Stage::compare;
+    }
+}
+
+std::optional<Fairing::Path> Fairing::straightened(Index edge) const
+{
+    const Index left = layout_.face(2 * edge);
+    const Index right = layout_.face(2 * edge + 1);
+    const Index left_side = place_in(layout_.face_halfedges(left), 2 * edge);
+    const Index right_side = place_in(layout_.face_halfedges(right), 2 * edge + 1);
+    const RefinedMesh& refined = state_->refined;
+    const Patch disk = united(state_->patches[left], left_side, state_->patches[right], right_side);
+    const auto map = parametrise(disk, refined.positions,
+                                 inscribed_polygon(side_lengths(disk, refined.positions)), {0});
+    if (!map) {
+        return std::nullopt;
+    }
+    // The union begins where the chain ends.
+    const Index start = disk.sides[state_->patches[left].side_count() - 1];
+    const auto line = straight_line(disk, *map, start, 0);
+    if (!line) {
+        return std::nullopt;
+    }
+    const TriangleMesh& target = original_.mesh();
+    const TargetPlaces places(target, refined, disk, *map);
+    Path path{state_->paths[edge].front()};
+    for (const LineCrossing& crossing : *line) {
+        const Index crossed = places.common_edge(crossing.right, crossing.left);
+        if (crossed == kNone) {
+            continue;  // inside of a face of the target
+        }
+        const Index face = refined.triangle_faces[disk.triangles[map->parents[crossing.triangle]]];
+        Index h = 3 * face;
+        while (target.edge(h) != crossed) {
+            ++h;
+        }
+        const double from = places.parameter_on(crossed, crossing.right);
+        const double to = places.parameter_on(crossed, crossing.left);
+        path.push_back({kNone, h, (1 - crossing.share) * from + crossing.share * to});
+    }
+    path.push_back(state_->paths[edge].back());
+    return path;
+}
+
+void Fairing::compare()
+{
+    const auto state_with = [&](const std::vector<bool>& chosen) {
+        std::vector<Path> paths = state_->paths;
+        for (std::size_t i = 0; i < batch_.size(); ++i) {
+            if (chosen[i]) {
+                paths[batch_[i]] = traces_[i];
+            }
+        }
+        return state_of(std::move(paths));
+    };
+    std::vector<bool> chosen;
+    for (const Path& path : traces_) {
+        chosen.push_back(!path.empty());
+    }
+    std::optional<State> next = state_with(chosen);
+    bool all = true;
+    bool any = false;
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        const Index edge = batch_[i];
+        const bool better =
+            next && chosen[i] &&
+            quotient_beside(*next, edge) > (1 + kLeastGain) * quotient_beside(*state_, edge);
+        all = all && better == chosen[i];
+        any = any || better;
+        chosen[i] = better;
+    }
+    stage_ = Stage::choose;
+    if (any && !all) {
+        next = state_with(chosen);
+    }
+    if (!any || !next) {
+        return;
+    }
+    state_ = std::move(next);
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        if (!chosen[i]) {
+            continue;
+        }
+        ++kept_;
+        for (const Index side : {2 * batch_[i], 2 * batch_[i] + 1}) {
+            for (const Index h : layout_.face_halfedges(layout_.face(side))) {
+                const Index other = Layout::edge(h);
+                const Index face = layout_.face(Layout::twin(h));
+                waiting_[other] = waiting_[other] ||
+                                  (other != batch_[i] && face != kNone && face != layout_.face(h) &&
+                                   attempts_[other] < options_.rounds);
+            }
+        }
+    }
+}
+
+void Fairing::conclude()
+{
+    // Gaps that were made for others may have cost what was gained.
+    if (state_ && kept_ > 0 && worst_of(state_->quotients) >= (1 - kRounding) * first_worst_) {
+        original_ = std::move(state_->form);
+    }
+    state_.reset();
+    progress_ = 1;
+    stage_ = Stage::done;
+}
+
+void Fairing::finish()
+{
+    if (stage_ != Stage::done) {
+        conclude();
+    }
+}
+
+NormalForm Fairing::take()
+{
+    return std::move(original_);
+}
+
+}  // namespace layout_embedding

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "embedding/normal_form.hh"
+#include "embedding/refined_mesh.hh"
+#include "layout/layout.hh"
+#include "patches/patch.hh"
+
+namespace layout_embedding {
+
+struct FairingOptions {
+    /// As in StraighteningOptions::spacing.
+    double spacing = 0.25;
+    /// How often a path may be traced anew at most.
+    Index rounds = 8;
+};
+
+/// Makes patches rounder at the price of longer paths (PathShape::fair; [PSS01], Sec. 4.2: Praun,
+/// Sweldens, Schroeder, "Consistent mesh parameterizations", 2001): each path is traced anew as the
+/// straight line in a parametrisation of the two patches beside it as one disk, by mean-value
+/// coordinates over a polygon inscribed in a circle. The disk holds no landmark but on its rim, so
+/// a path stays in its homotopy class; paths that do not share a patch do not touch each other and
+/// are traced at the same time.
+///
+/// A trace is kept if it raises the smaller isoperimetric quotient of its two patches, by more than
+/// a hundredth. So the smallest quotient of all rises, and it ends by itself: a path is tried again
+/// only once one of its patches has changed. Paths with the same layout face on both sides, or with
+/// none on one side, stay as they are; so do those whose disk cannot be mapped without flips in
+/// double precision.
+///
+/// Plain doubles, in a fixed order: the same bits on every platform, however the steps are cut into
+/// slices.
+class Fairing {
+public:
+    /// `form` is a complete one of the layout's edges; `layout` must outlive this.
+    Fairing(const Layout& layout, NormalForm form, FairingOptions options = {});
+
+    /// Does a bounded amount of work: traces one path, or cuts the mesh; false once done.
+    bool step();
+    /// Ends it early, in a sound state.
+    void finish();
+    /// In [0, 1], never decreasing.
+    double progress() const { return progress_; }
+    /// How many traces were kept so far.
+    Index kept() const { return kept_; }
+
+    /// The form with the new paths, compact; only once done.
+    NormalForm take();
+
+private:
+    enum class Stage { choose, trace, compare, done };
+
+    /// An element of a strand: a vertex of the target, or a crossing as in NormalForm::Element.
+    struct Place {
+        Index vertex = kNone;
+        Index halfedge = kNone;
+        double parameter = 0;
+    };
+    using Path = std::vector<Place>;
+
+    /// An embedding and its patches.
+    struct State {
+        std::vector<Path> paths;
+        NormalForm form;
+        RefinedMesh refined;
+        std::vector<Patch> patches;
+        std::vector<double> quotients;  // per layout face
+    };
+
+    /// Makes room between crossings and cuts the mesh; nothing if paths meet.
+    std::optional<State> state_of(std::vector<Path> paths) const;
+    /// Chooses paths that share no patch, those with the worst patches first.
+    void choose();
+    void trace(Index edge);
+    std::optional<Path> straightened(Index edge) const;
+    /// Keeps the new paths that make their patches better.
+    void compare();
+    /// The smaller quotient of the two patches beside an edge.
+    double quotient_beside(const State& state, Index edge) const;
+    void conclude();
+
+    const Layout& layout_;
+    FairingOptions options_;
+    NormalForm original_;
+    std::optional<State> state_;
+    double first_worst_ = 0;
+    Stage stage_ = Stage::choose;
+    std::vector<bool> waiting_;    // per edge
+    std::vector<Index> attempts_;  // per edge
+    std::vector<Index> batch_;     // edges
+    std::vector<Path> traces_;     // per edge of the batch; empty without one
+    Index kept_ = 0;
+    double progress_ = 0;
+};
+
+}  // namespace layout_embedding
