@@ -26,6 +26,14 @@ VertexMoves::VertexMoves(NormalForm& form, const std::vector<Index>& landmarks)
     for (const Index vertex : landmarks) {
         carried_[vertex] = kForbidden;
     }
+    for (Index strand = 0; strand < form.strand_count(); ++strand) {
+        for (Index id = form.first(strand); id != kNone; id = form.element(id).next) {
+            const Index vertex = form.element(id).vertex;
+            if (vertex != kNone && carried_[vertex] == kNone) {
+                carried_[vertex] = id;
+            }
+        }
+    }
 }
 
 Index VertexMoves::vertex_beside(Index crossing, bool towards_tail) const

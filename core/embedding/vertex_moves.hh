@@ -15,7 +15,7 @@ class VertexMoves {
 public:
     static constexpr double kLeastGain = 1e-10;
 
-    /// `form` has no strands on free vertices; keeps references.
+    /// Keeps references. O(#F + elements).
     VertexMoves(NormalForm& form, const std::vector<Index>& landmarks);
 
     /// Whether a strand may be put on the vertex.

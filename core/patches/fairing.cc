@@ -5,6 +5,7 @@
 
 #include "embedding/crossing_room.hh"
 #include "embedding/realisation.hh"
+#include "embedding/vertex_moves.hh"
 #include "patches/parametrisation.hh"
 #include "patches/patch_shape.hh"
 #include "patches/patch_union.hh"
@@ -115,6 +116,33 @@ private:
     const Parametrisation& map_;
 };
 
+/// Puts strands on the free vertices that their gaps would bend them around.
+void snap_to_vertices(NormalForm& form, double spacing)
+{
+    std::vector<Index> landmarks;
+    for (Index strand = 0; strand < form.strand_count(); ++strand) {
+        landmarks.push_back(form.element(form.first(strand)).vertex);
+        landmarks.push_back(form.element(form.last(strand)).vertex);
+    }
+    VertexMoves moves(form, landmarks);
+    bool any = false;
+    for (Index strand = 0; strand < form.strand_count(); ++strand) {
+        for (Index id = form.first(strand); id != kNone; id = form.element(id).next) {
+            if (!form.element(id).is_crossing()) {
+                continue;
+            }
+            if (const Index snapped = moves.snap(id); snapped != kNone) {
+                id = snapped;
+                any = true;
+            }
+        }
+    }
+    if (any) {
+        // Fewer crossings on an edge keep wider gaps.
+        keep_gaps(form, spacing);
+    }
+}
+
 Index place_in(std::span<const Index> halfedges, Index halfedge)
 {
     return static_cast<Index>(std::find(halfedges.begin(), halfedges.end(), halfedge) -
@@ -193,8 +221,9 @@ std::optional<Fairing::State> Fairing::state_of(std::vector<Path> paths) const
         form.append_to_edge(crossings[i].id);
     }
     form.remove_bigons();
-    form.compact();
     keep_gaps(form, options_.spacing);
+    snap_to_vertices(form, options_.spacing);
+    form.compact();
     auto refined = cut_along(layout_, form);
     if (!refined) {
         return std::nullopt;
@@ -239,7 +268,6 @@ void Fairing::choose()
             stage_ = Stage::done;
             return;
         }
-        first_worst_ = worst_of(state_->quotients);
     }
     std::vector<std::pair<double, Index>> order;
     for (Index edge = 0; edge < layout_.edge_count(); ++edge) {
@@ -349,7 +377,9 @@ void Fairing::compare()
     if (any && !all) {
         next = state_with(chosen);
     }
-    if (!any || !next) {
+    // Gaps that were made for others may cost a thin patch more than was gained.
+    if (!any || !next ||
+        worst_of(next->quotients) < (1 - kRounding) * worst_of(state_->quotients)) {
         return;
     }
     state_ = std::move(next);
@@ -372,8 +402,7 @@ void Fairing::compare()
 
 void Fairing::conclude()
 {
-    // Gaps that were made for others may have cost what was gained.
-    if (state_ && kept_ > 0 && worst_of(state_->quotients) >= (1 - kRounding) * first_worst_) {
+    if (state_ && kept_ > 0) {
         original_ = std::move(state_->form);
     }
     state_.reset();

@@ -14,7 +14,7 @@ struct FairingOptions {
     /// As in StraighteningOptions::spacing.
     double spacing = 0.25;
     /// How often a path may be traced anew at most.
-    Index rounds = 8;
+    Index rounds = 3;
 };
 
 /// Makes patches rounder at the price of longer paths (PathShape::fair; [PSS01], Sec. 4.2: Praun,
@@ -25,10 +25,11 @@ struct FairingOptions {
 /// are traced at the same time.
 ///
 /// A trace is kept if it raises the smaller isoperimetric quotient of its two patches, by more than
-/// a hundredth. So the smallest quotient of all rises, and it ends by itself: a path is tried again
-/// only once one of its patches has changed. Paths with the same layout face on both sides, or with
-/// none on one side, stay as they are; so do those whose disk cannot be mapped without flips in
-/// double precision.
+/// a hundredth, and the smallest of all does not sink. It ends by itself: a path is tried again
+/// only once one of its patches has changed. A patch stays thin where the gaps of many paths over
+/// the same edges leave no room. Paths with the same layout face on both sides, or with none on one
+/// side, stay as they are; so do those whose disk cannot be mapped without flips in double
+/// precision.
 ///
 /// Plain doubles, in a fixed order: the same bits on every platform, however the steps are cut into
 /// slices.
@@ -85,7 +86,6 @@ private:
     FairingOptions options_;
     NormalForm original_;
     std::optional<State> state_;
-    double first_worst_ = 0;
     Stage stage_ = Stage::choose;
     std::vector<bool> waiting_;    // per edge
     std::vector<Index> attempts_;  // per edge
