@@ -1,7 +1,7 @@
 import { Session, LayoutError } from "layout-embedding";
 import { expect, test } from "vitest";
 import { drop, ready, solved, textFile, untilStatus, useBrowser } from "./browser.js";
-import { ball, cube, toObj, toOff } from "./meshes.js";
+import { ball, cube, toObj, toOff, toPly, toStl } from "./meshes.js";
 
 const open = useBrowser();
 
@@ -55,6 +55,30 @@ test("layout_target_and_landmarks_can_be_dropped_together", async () => {
     expect(await page.textContent("#layout-name")).toBe("layout.off");
     expect(await page.textContent("#target-name")).toBe("target.off");
     expect(await page.textContent("#landmarks-name")).toBe("8, landmarks.txt");
+    await page.click("#solve");
+    await untilStatus(page, solved);
+    expect(await page.textContent("#embedded")).toBe("12 of 12");
+    expect(complaints).toEqual([]);
+    await close();
+});
+
+test("ply_stl_and_named_landmarks_are_known_by_their_endings", async () => {
+    const { page, complaints, close } = await open();
+    await untilStatus(page, solved);
+    const landmarks = cube.faces.flat().length / 3;
+    const points = Array.from({ length: landmarks }, (_, i) => ({
+        name: `corner ${String(i)}`,
+        position: cube.positions.slice(3 * i, 3 * i + 3),
+    }));
+    await drop(page, [
+        { name: "a.json", text: JSON.stringify({ landmarks: points }) },
+        { name: "b.stl", text: toStl(ball(3)) },
+        { name: "c.ply", text: toPly(cube) },
+    ]);
+    await untilStatus(page, ready);
+    expect(await page.textContent("#layout-name")).toBe("c.ply");
+    expect(await page.textContent("#target-name")).toBe("b.stl");
+    expect(await page.textContent("#landmarks-name")).toBe("8, a.json");
     await page.click("#solve");
     await untilStatus(page, solved);
     expect(await page.textContent("#embedded")).toBe("12 of 12");

@@ -34,3 +34,24 @@ export function toOff({ positions, faces }: Polygons): string {
     for (const face of faces) lines.push(`${face.length} ${face.join(" ")}`);
     return lines.join("\n") + "\n";
 }
+
+export function toPly({ positions, faces }: Polygons): string {
+    const lines = ["ply", "format ascii 1.0", `element vertex ${positions.length / 3}`];
+    for (const axis of ["x", "y", "z"]) lines.push(`property double ${axis}`);
+    lines.push(`element face ${faces.length}`, "property list uchar int vertex_indices");
+    lines.push("end_header");
+    for (let i = 0; i < positions.length; i += 3) lines.push(positions.slice(i, i + 3).join(" "));
+    for (const face of faces) lines.push(`${face.length} ${face.join(" ")}`);
+    return lines.join("\n") + "\n";
+}
+
+/** Triangles only. */
+export function toStl({ positions, faces }: Polygons): string {
+    const lines = ["solid"];
+    for (const face of faces) {
+        lines.push("facet normal 0 0 0", "outer loop");
+        for (const v of face) lines.push(`vertex ${positions.slice(3 * v, 3 * v + 3).join(" ")}`);
+        lines.push("endloop", "endfacet");
+    }
+    return [...lines, "endsolid"].join("\n") + "\n";
+}
