@@ -1,3 +1,5 @@
+import { readFile } from "node:fs/promises";
+import { unzipSync } from "fflate";
 import { Session, LayoutError } from "layout-embedding";
 import { expect, test } from "vitest";
 import { drop, ready, solved, textFile, untilStatus, useBrowser } from "./browser.js";
@@ -82,6 +84,12 @@ test("ply_stl_and_named_landmarks_are_known_by_their_endings", async () => {
     await page.click("#solve");
     await untilStatus(page, solved);
     expect(await page.textContent("#embedded")).toBe("12 of 12");
+    // What it makes of them goes home in other programs' formats, too.
+    const download = page.waitForEvent("download");
+    await page.click("#download-all");
+    const files = unzipSync(await readFile(await (await download).path()));
+    for (const name of ["refined.obj", "refined.ply", "refined.vtp", "refined.glb", "refined.svg"])
+        expect(files[name]?.length).toBeGreaterThan(1000);
     expect(complaints).toEqual([]);
     await close();
 });

@@ -258,6 +258,16 @@ export class Actions {
         this.store.update({ step });
     }
 
+    /** The result in the formats of other programs, by file name; empty if there is none. */
+    async exportFormats(): Promise<Readonly<Record<string, Uint8Array>>> {
+        try {
+            return await this.engine.exportAs(["ply", "vtp", "glb", "svg"]);
+        } catch (error) {
+            this.report(error);
+            return {};
+        }
+    }
+
     /** The files of the result, by name; empty if there is none. */
     async exportFiles(): Promise<Readonly<Record<string, Uint8Array>>> {
         try {

@@ -2,6 +2,7 @@ import type {
     EmbeddingSession,
     EmbedResult,
     ExportedFiles,
+    ExportFormat,
     LandmarkInput,
     LandmarkOptions,
     LandmarksInfo,
@@ -108,6 +109,10 @@ export class Engine {
 
     exportFiles(): Promise<ExportedFiles> {
         return this.use(({ main }) => main.exportFiles());
+    }
+
+    exportAs(formats: readonly ExportFormat[]): Promise<Record<string, Uint8Array>> {
+        return this.use(({ main }) => main.exportAs(formats));
     }
 
     private async use<Result>(call: (running: Running) => Promise<Result>): Promise<Result> {

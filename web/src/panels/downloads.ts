@@ -34,7 +34,10 @@ export function downloadsPanel(
     };
     const all = onClick("download-all", async () => {
         const { landmarks } = store.get();
-        const files: Zippable = { ...(await actions.exportFiles()) };
+        const files: Zippable = {
+            ...(await actions.exportFiles()),
+            ...(await actions.exportFormats()),
+        };
         const ids = landmarks && completeIds(landmarks);
         if (ids) files["landmarks.txt"] = strToU8(`${ids.join("\n")}\n`);
         download("embedding.zip", await zipped(files));
