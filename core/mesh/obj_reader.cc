@@ -16,7 +16,6 @@
 namespace layout_embedding {
 namespace {
 
-constexpr std::int64_t kMaxCorners = 255;
 /// So that an index fits an int; a file of more vertices than that is out of reach.
 constexpr int kMaxDigits = 9;
 
@@ -124,7 +123,7 @@ private:
         }
         if (count == 0) {
             fail(ErrorCode::syntaxError, line_number_, "a face without corners");
-        } else if (count > kMaxCorners) {
+        } else if (count > kMaxFaceCorners) {
             fail(ErrorCode::faceTooLarge, line_number_,
                  "a face of " + std::to_string(count) + " corners");
         }
@@ -196,7 +195,7 @@ struct FaceSink {
         if (forward) {
             forward_references.emplace_back(mesh.face_count(), lines.line_number());
         }
-        if (mesh.corners.size() >= kNone - kMaxCorners) {
+        if (mesh.corners.size() >= kNone - kMaxFaceCorners) {
             lines.fail(ErrorCode::tooLarge, lines.line_number(),
                        "more corners than 32-bit ids can number");
             return;

@@ -8,8 +8,6 @@
 namespace layout_embedding {
 namespace {
 
-constexpr std::int64_t kMaxCorners = 255;
-
 class OffReader {
 public:
     OffReader(std::string_view bytes, std::string_view subject)
@@ -110,7 +108,7 @@ private:
         if (!take_integer(line_, corners) || corners < 1) {
             return fail(ErrorCode::syntaxError, "a face without a number of corners");
         }
-        if (corners > kMaxCorners) {
+        if (corners > kMaxFaceCorners) {
             return fail(ErrorCode::faceTooLarge,
                         "a face of " + std::to_string(corners) + " corners");
         }
@@ -126,7 +124,7 @@ private:
             }
             mesh_.corners.push_back(static_cast<Index>(vertex));
         }
-        if (mesh_.corners.size() >= kNone - kMaxCorners) {
+        if (mesh_.corners.size() >= kNone - kMaxFaceCorners) {
             return fail(ErrorCode::tooLarge, "more corners than 32-bit ids can number");
         }
         mesh_.face_offsets.push_back(static_cast<Index>(mesh_.corners.size()));

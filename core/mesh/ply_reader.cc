@@ -11,8 +11,6 @@
 namespace layout_embedding {
 namespace {
 
-constexpr std::int64_t kMaxCorners = 255;
-
 enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 std::optional<Scalar> scalar_of(std::string_view name)
@@ -241,7 +239,7 @@ private:
                                          "a list of no possible length");
                 }
                 count = static_cast<std::int64_t>(number);
-                if (property.role == Role::corners && count > kMaxCorners) {
+                if (property.role == Role::corners && count > kMaxFaceCorners) {
                     return element_error(ErrorCode::faceTooLarge, element, id,
                                          std::to_string(count) + " corners");
                 }
@@ -280,7 +278,7 @@ private:
         if (element.name == "vertex") {
             mesh_.positions.push_back(position);
         } else if (element.name == "face") {
-            if (mesh_.corners.size() >= kNone - kMaxCorners) {
+            if (mesh_.corners.size() >= kNone - kMaxFaceCorners) {
                 return element_error(ErrorCode::tooLarge, element, id,
                                      "more corners than 32-bit ids can number");
             }

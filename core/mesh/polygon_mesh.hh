@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "base/types.hh"
 
 namespace layout_embedding {
+
+/// The most corners of a face that files may have.
+inline constexpr std::int64_t kMaxFaceCorners = 255;
 
 /// Faces as loops of vertex ids, exactly as a file gives them: nothing is checked, welded or
 /// reordered. Layouts and targets both start as one of these.

@@ -75,9 +75,7 @@ double area(const Domain& domain)
 {
     double sum = 0;
     for (std::size_t i = 1; i + 1 < domain.size(); ++i) {
-        const PlanePoint a = domain[i] - domain[0];
-        const PlanePoint b = domain[i + 1] - domain[0];
-        sum += a.x() * b.y() - a.y() * b.x();
+        sum += cross(domain[i] - domain[0], domain[i + 1] - domain[0]);
     }
     return sum / 2;
 }

@@ -10,6 +10,12 @@ namespace layout_embedding {
 /// A point or vector in a plane domain.
 using PlanePoint = Eigen::Vector2d;
 
+/// Twice the signed area of the triangle between a and b.
+inline double cross(const PlanePoint& a, const PlanePoint& b)
+{
+    return a.x() * b.y() - a.y() * b.x();
+}
+
 /// The corners of a convex polygon in the plane, counter-clockwise; side i runs from corner i to
 /// the next one.
 using Domain = std::vector<PlanePoint>;

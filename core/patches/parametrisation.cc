@@ -16,11 +16,6 @@ namespace {
 constexpr double kLargestStretch = 1e8;
 constexpr double kSmallestStretch = 1e-4;
 
-double cross(const PlanePoint& a, const PlanePoint& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Whether a, b, c are counter-clockwise beyond every doubt about rounding (Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", 1997).
 bool certainly_ccw(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)

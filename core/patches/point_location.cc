@@ -4,14 +4,6 @@
 #include <cmath>
 
 namespace layout_embedding {
-namespace {
-
-double cross(const PlanePoint& a, const PlanePoint& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
-
-}  // namespace
 
 PointLocation::PointLocation(const Parametrisation& map) : map_(map), low_(map.points[0])
 {

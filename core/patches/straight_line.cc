@@ -72,9 +72,7 @@ private:
     /// Positive on the left of the line.
     double offset(Index v) const
     {
-        const PlanePoint along = map_.points[to_] - map_.points[from_];
-        const PlanePoint away = map_.points[v] - map_.points[from_];
-        return along.x() * away.y() - along.y() * away.x();
+        return cross(map_.points[to_] - map_.points[from_], map_.points[v] - map_.points[from_]);
     }
 
     bool is_left(Index v) const
