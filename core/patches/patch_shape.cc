@@ -4,8 +4,8 @@ namespace layout_embedding {
 
 double PatchShape::quotient() const
 {
-    constexpr double kPi = 3.14159265358979323846;
-    return perimeter > 0 ? 4 * kPi * area / (perimeter * perimeter) : 0;
+    constexpr double kFourPi = 12.566370614359172954;
+    return perimeter > 0 ? kFourPi * area / (perimeter * perimeter) : 0;
 }
 
 std::vector<PatchShape> patch_shapes(const Layout& layout, const RefinedMesh& refined)
