@@ -197,7 +197,8 @@ void ExactSolver::look_into(bool is_optimal)
     if (is_optimal || (space_.incumbent.exists() && cost_ - bound <= (incumbent - bound) / 2)) {
         ++counters_.states_expanded;
         has_explored_ = false;
-        stage_ = Stage::explore;
+        // Without an incumbent nothing says how far to explore: first of all, an embedding.
+        stage_ = space_.incumbent.exists() ? Stage::explore : Stage::examine;
     }
 }
 

@@ -1,5 +1,7 @@
 #include "search/starting_search.hh"
 
+#include <array>
+
 namespace layout_embedding {
 
 namespace {
@@ -7,14 +9,20 @@ namespace {
 // Where local search goes on for long, bounds are what is missing.
 constexpr std::uint64_t kMaxLocalSearchWork = 6'000'000;
 
+// One after the other, until one ends in an embedding. On closed surfaces of genus 0 the first
+// does.
+constexpr std::array<GreedyRule, 4> kRules{GreedyRule::plain(), GreedyRule::schreiner(),
+                                           GreedyRule::kraevoy(), GreedyRule::praun()};
+
 }  // namespace
 
 StartingSearch::StartingSearch(const EmbeddingProblem& problem, SearchSpace& space,
                                bool local_search, double gap)
-    : space_(space),
+    : problem_(problem),
+      space_(space),
       wants_local_search_(local_search),
       gap_(gap),
-      greedy_(problem, space.strands, space.search)
+      greedy_(std::make_unique<GreedySearch>(problem, space.strands, space.search, kRules[0]))
 {}
 
 Solver::Outcome StartingSearch::run(WorkBudget& budget)
@@ -36,16 +44,19 @@ void StartingSearch::empty_strands()
 Solver::Outcome StartingSearch::run_greedy(WorkBudget& budget)
 {
     const std::uint64_t before = space_.search.expansion_count();
-    const auto outcome = greedy_.run(budget.left());
+    const auto outcome = greedy_->run(budget.left());
     budget.charge(space_.search.expansion_count() - before);
     switch (outcome) {
         case GreedySearch::Outcome::running:
             return Solver::Outcome::running;
         case GreedySearch::Outcome::bounded:
-            root_bound_ = greedy_.lower_bound();
+            if (rule_ > 0) {
+                return Solver::Outcome::advanced;
+            }
+            root_bound_ = greedy_->lower_bound();
             if (root_bound_ != kInfiniteLength) {
                 for (Index e = 0; e < space_.embedding.layout().edge_count(); ++e) {
-                    root_walks_.push_back(space_.pool.add(e, greedy_.candidate(e)));
+                    root_walks_.push_back(space_.pool.add(e, greedy_->candidate(e)));
                     space_.oracle.learn_unconstrained(root_walks_.back());
                 }
             }
@@ -56,8 +67,13 @@ Solver::Outcome StartingSearch::run_greedy(WorkBudget& budget)
             return take_greedy_embedding();
         case GreedySearch::Outcome::failed:
             empty_strands();
-            stage_ = Stage::finished;
-            return Solver::Outcome::finished;
+            if (root_bound_ == kInfiniteLength || ++rule_ == kRules.size()) {
+                stage_ = Stage::finished;
+                return Solver::Outcome::finished;
+            }
+            greedy_ = std::make_unique<GreedySearch>(problem_, space_.strands, space_.search,
+                                                     kRules[rule_]);
+            return Solver::Outcome::advanced;
         case GreedySearch::Outcome::tied:
             return Solver::Outcome::tied;
     }

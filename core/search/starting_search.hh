@@ -11,8 +11,9 @@
 
 namespace layout_embedding {
 
-/// The first embeddings: plain greedy insertion, then local search on the order of insertion. Also
-/// the unconstrained path of every edge, whose sum bounds every embedding.
+/// The first embeddings: plain greedy insertion, or a heuristic where that fails, then local search
+/// on the order of insertion. Also the unconstrained path of every edge, whose sum bounds every
+/// embedding.
 class StartingSearch {
 public:
     /// Keeps references. With `local_search` unset, greedy insertion alone. Ends where the gap
@@ -29,7 +30,7 @@ public:
     Length root_bound() const { return root_bound_; }
     /// The unconstrained path per layout edge, once root_bound() is known and finite.
     const std::vector<Index>& root_walks() const { return root_walks_; }
-    double progress() const { return greedy_.progress(); }
+    double progress() const { return greedy_->progress(); }
 
 private:
     enum class Stage { greedy, local_search, finished };
@@ -39,11 +40,13 @@ private:
     Solver::Outcome take_greedy_embedding();
     void empty_strands();
 
+    const EmbeddingProblem& problem_;
     SearchSpace& space_;
     bool wants_local_search_;
     double gap_;
     Stage stage_ = Stage::greedy;
-    GreedySearch greedy_;
+    std::unique_ptr<GreedySearch> greedy_;
+    std::size_t rule_ = 0;
     std::unique_ptr<LocalSearch> local_search_;
     std::vector<Index> root_walks_;
     Length root_bound_ = 0;
