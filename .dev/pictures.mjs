@@ -1,6 +1,6 @@
-// npm run pictures: the gallery's pictures, taken by the page itself of each solved shape and example,
-// with a transparent background, in web/public/shapes.
-import { mkdirSync, writeFileSync } from "node:fs";
+// npm run pictures -- [--all]: the gallery's pictures, taken by the page itself of each solved shape and
+// example, with a transparent background, in web/public/shapes. Without --all only those that are missing.
+import { existsSync, mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { chromium } from "playwright-core";
 import { preview } from "vite";
@@ -38,8 +38,11 @@ await main(async () => {
             shapes.push({ hash: `example=${name}`, file: `examples/${name}` });
         }
         for (const { hash, file } of shapes) {
-            const bytes = await pictureOf(browser, `${url}#${hash}`);
             const out = path.join(folder, `${file}.webp`);
+            if (existsSync(out) && !process.argv.includes("--all")) {
+                continue;
+            }
+            const bytes = await pictureOf(browser, `${url}#${hash}`);
             mkdirSync(path.dirname(out), { recursive: true });
             writeFileSync(out, bytes);
             say(`${file}.webp: ${bytes.length} bytes`);

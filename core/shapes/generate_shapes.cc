@@ -1,12 +1,12 @@
 // The shape collection as files; see kUsage. For tests, benchmarks and the page's gallery.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +28,8 @@ constexpr const char* kUsage =
     "generate_shapes --all [--member N] --output DIR [--vertices N] [--seed N]\n"
     "    writes, for each class, DIR/CLASS/landmarks.json (names of the landmarks in order) and,\n"
     "    for each member, DIR/CLASS/MEMBER.obj and MEMBER.txt (0-based vertex ids of the\n"
-    "    landmarks, one per line), and DIR/index.json about all that was written\n"
+    "    landmarks, one per line), and DIR/index.json about all that was written; --member may be\n"
+    "    given more than once\n"
     "    --digits N  rounds coordinates to N decimals (smaller files)\n"
     "generate_shapes --statistics [--class NAME] [--vertices N] [FILE...]\n"
     "    prints edge lengths, angles and valences of members, and of mesh files beside them\n"
@@ -45,7 +46,8 @@ struct Arguments {
     bool check = false;
     CollectionCheckOptions check_options;
     std::string class_name;
-    std::optional<Index> member;
+    /// Empty for all.
+    std::vector<Index> members;
     std::string output;
     int digits = -1;
     ShapeOptions options;
@@ -106,7 +108,7 @@ bool parse(int count, char** words, Arguments& arguments)
                 return false;
             }
             if (word == "--member") {
-                arguments.member = static_cast<Index>(value);
+                arguments.members.push_back(static_cast<Index>(value));
             } else if (word == "--vertices") {
                 arguments.options.vertices = static_cast<Index>(value);
             } else if (word == "--others") {
@@ -189,6 +191,12 @@ std::vector<const ShapeClass*> chosen(const Arguments& arguments)
     return classes;
 }
 
+bool wants_member(const Arguments& arguments, Index member)
+{
+    const auto& members = arguments.members;
+    return members.empty() || std::find(members.begin(), members.end(), member) != members.end();
+}
+
 int print_statistics(const Arguments& arguments)
 {
     std::printf("%s", statistics_head().c_str());
@@ -207,7 +215,7 @@ int print_statistics(const Arguments& arguments)
     }
     for (const ShapeClass* shape_class : chosen(arguments)) {
         for (Index m = 0; m < shape_class->member_count(); ++m) {
-            if (arguments.member && m != *arguments.member) {
+            if (!wants_member(arguments, m)) {
                 continue;
             }
             const auto shape = make_shape(*shape_class, m, arguments.options);
@@ -230,7 +238,7 @@ int write_shapes(const Arguments& arguments)
         std::filesystem::create_directories(folder / shape_class->name, error);
         std::string members;
         for (Index m = 0; m < shape_class->member_count(); ++m) {
-            if (arguments.member && m != *arguments.member) {
+            if (!wants_member(arguments, m)) {
                 continue;
             }
             auto shape = make_shape(*shape_class, m, arguments.options);

@@ -2,7 +2,7 @@
 // page should not do: errors on the console and requests.
 import { readFile } from "node:fs/promises";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
-import { afterAll, beforeAll, expect, inject, vi } from "vitest";
+import { afterAll, afterEach, beforeAll, expect, inject, vi } from "vitest";
 
 const executablePath = process.env["CHROMIUM"] ?? "/usr/bin/chromium";
 
@@ -18,6 +18,9 @@ const args = [
     "--no-first-run",
 ];
 
+/** Large enough for both views; every pixel is drawn without a graphics card. */
+const viewport = { width: 1120, height: 720 };
+
 /** A solve on a small machine under load may take its time. */
 export const patience = 90_000;
 
@@ -30,17 +33,22 @@ export interface OpenPage {
     close: () => Promise<void>;
 }
 
+/** What a page is opened with: a context, and what follows # in its address. */
+export interface OpenOptions extends BrowserContextOptions {
+    link?: string;
+}
+
 /** One browser per test file; every page gets a context of its own. */
-export function useBrowser(): (options?: BrowserContextOptions) => Promise<OpenPage> {
+export function useBrowser(): (options?: OpenOptions) => Promise<OpenPage> {
     vi.setConfig({ testTimeout: 2 * patience, hookTimeout: patience });
     let browser: Browser;
     beforeAll(async () => {
         browser = await chromium.launch({ executablePath, args });
     });
     afterAll(() => browser.close());
-    return async (options = {}) => {
+    return async ({ link, ...options } = {}) => {
         const context = await browser.newContext({
-            viewport: { width: 1280, height: 800 },
+            viewport,
             acceptDownloads: true,
             ...options,
         });
@@ -55,8 +63,28 @@ export function useBrowser(): (options?: BrowserContextOptions) => Promise<OpenP
         });
         page.on("pageerror", (error) => complaints.push(error.message));
         context.on("request", (request) => requests.push(request.url()));
-        await page.goto(inject("pageUrl"));
+        await page.goto(inject("pageUrl") + (link ? `#${link}` : ""));
         return { page, complaints, requests, close: () => context.close() };
+    };
+}
+
+/**
+ * A page for all tests of a file, one after the other, as one person uses it. Each test has to leave
+ * it without complaints.
+ */
+export function usePage(options: OpenOptions = {}): () => OpenPage {
+    const open = useBrowser();
+    let opened: OpenPage | null = null;
+    beforeAll(async () => {
+        opened = await open(options);
+        await untilStatus(opened.page, solved);
+    });
+    afterEach(() => {
+        expect(opened?.complaints.splice(0), "complaints of the page").toEqual([]);
+    });
+    return () => {
+        if (!opened) throw new Error("the page is not open");
+        return opened;
     };
 }
 
@@ -95,6 +123,52 @@ export async function untilSolvedAfter(page: Page, before: string | null): Promi
         /^\d/.test(document.getElementById("cost")?.textContent ?? ""),
     );
     await untilStatus(page, solved);
+}
+
+/** Clicks "Solve" and waits for an embedding. */
+export async function solve(page: Page): Promise<void> {
+    await page.click("#solve");
+    await untilSolved(page);
+}
+
+/** Waits until a solve that was just begun is over. */
+export async function untilSolved(page: Page): Promise<void> {
+    await page.waitForFunction(
+        () =>
+            document.getElementById("solve")?.textContent === "Solve" &&
+            /^\d/.test(document.getElementById("cost")?.textContent ?? ""),
+    );
+    await untilStatus(page, solved);
+}
+
+/** The number that an element shows. */
+export async function numberIn(page: Page, selector: string): Promise<number> {
+    return Number(((await page.textContent(selector)) ?? "").replace(/[^\d.]/g, ""));
+}
+
+/**
+ * Moves the pointer over the target until the page says that it is over something like `pattern`,
+ * nearest to a point first; returns where that is, relative to the page.
+ */
+export async function findInTarget(
+    page: Page,
+    pattern: RegExp,
+    around: { x: number; y: number } = { x: 0.5, y: 0.5 },
+): Promise<{ x: number; y: number; said: string }> {
+    const box = await page.locator("#target-view canvas").boundingBox();
+    if (!box) throw new Error("the target is not shown");
+    const middle = { x: box.x + around.x * box.width, y: box.y + around.y * box.height };
+    const steps = [];
+    for (let dx = -8; dx <= 8; ++dx) for (let dy = -8; dy <= 8; ++dy) steps.push({ dx, dy });
+    steps.sort((a, b) => Math.hypot(a.dx, a.dy) - Math.hypot(b.dx, b.dy));
+    for (const { dx, dy } of steps) {
+        const at = { x: middle.x + 9 * dx, y: middle.y + 9 * dy };
+        await page.mouse.move(at.x, at.y);
+        await frames(page, 2);
+        const said = (await page.textContent("#target-hover")) ?? "";
+        if (pattern.test(said)) return { ...at, said };
+    }
+    throw new Error(`there is nothing like ${String(pattern)} there`);
 }
 
 /** Lets the page draw. */

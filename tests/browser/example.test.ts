@@ -1,7 +1,11 @@
-import { expect, test } from "vitest";
-import { choose, colorsOf, solved, untilSolvedAfter, untilStatus, useBrowser } from "./browser.js";
+// The page as it opens: a solved example, pictures, and what it asks the network for.
+import { Session, type EmbeddingDocument } from "layout-embedding";
+import { unzipSync } from "fflate";
+import { expect, inject, test } from "vitest";
+import { examples } from "../../web/src/examples/index.js";
+import { choose, colorsOf, downloaded, frames, untilSolvedAfter, usePage } from "./browser.js";
 
-const open = useBrowser();
+const opened = usePage();
 
 /** Colours that fill more than a thousandth of a picture. */
 const common = (colors: Map<number, number>): number => {
@@ -10,36 +14,59 @@ const common = (colors: Map<number, number>): number => {
 };
 
 test("the_page_opens_with_a_solved_example_and_shows_it_in_colours", async () => {
-    const { page, complaints, close } = await open();
-    await untilStatus(page, solved);
+    const { page } = opened();
     expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
     // Background, clay shades and text alone make fewer.
-    expect(common(await colorsOf(page, "#target-view canvas"))).toBeGreaterThan(10);
+    const colored = common(await colorsOf(page, "#target-view canvas"));
+    expect(colored).toBeGreaterThan(10);
     expect(common(await colorsOf(page, "#layout-view canvas"))).toBeGreaterThan(10);
     await page.uncheck("#show-patches");
-    const plain = await colorsOf(page, "#target-view canvas");
+    await frames(page);
+    expect(common(await colorsOf(page, "#target-view canvas"))).toBeLessThan(colored);
     await page.check("#show-patches");
-    expect(common(await colorsOf(page, "#target-view canvas"))).toBeGreaterThan(common(plain));
-    expect(complaints).toEqual([]);
-    await close();
 });
 
-test("every_example_can_be_chosen_and_is_solved", async () => {
-    const { page, complaints, close } = await open();
-    await untilStatus(page, solved);
-    for (const title of ["Pebble", "Knot"]) {
-        const before = await page.textContent("#target-name");
-        await choose(page, title);
-        await untilSolvedAfter(page, before);
-        expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
-    }
-    expect(complaints).toEqual([]);
-    await close();
+test("only_the_pages_own_files_are_asked_for", () => {
+    const { requests } = opened();
+    const origin = new URL(inject("pageUrl")).origin;
+    expect(requests.length).toBeGreaterThan(2);
+    expect(requests.filter((url) => new URL(url).origin !== origin)).toEqual([]);
+});
+
+/** A document without what depends on the clock. */
+function timeless(text: string): unknown {
+    return JSON.parse(text, (key, value: unknown) =>
+        ["seconds", "cpuSeconds"].includes(key) ? undefined : value,
+    );
+}
+
+test("chromium_and_node_give_the_same_embedding_bit_for_bit", async () => {
+    const { page } = opened();
+    const zip = unzipSync(await downloaded(page, () => page.click("#download-all")));
+    const example = examples[0]?.make();
+    if (!example) throw new Error("there is no example");
+    const session = await Session.create();
+    await session.loadLayout(example.layout);
+    await session.loadTarget(example.target);
+    await session.setLandmarks(example.landmarks);
+    const result = await session.solve({ gap: 0.01, seed: 1 });
+    const here = await session.exportFiles();
+    await session.dispose();
+    const text = (bytes: Uint8Array | undefined) => Buffer.from(bytes ?? []).toString();
+    expect(text(zip["refined.obj"])).toBe(text(here["refined.obj"]));
+    expect(timeless(text(zip["embedding.json"]))).toEqual(timeless(text(here["embedding.json"])));
+    expect(text(zip["refined_map.json"])).toBe(text(here["refined_map.json"]));
+    const written = JSON.parse(text(zip["embedding.json"])) as EmbeddingDocument;
+    expect(written.cost).toBe(result.cost);
+    expect(written.insertionOrder).toEqual([...result.insertionOrder]);
+    expect(text(zip["landmarks.txt"]).trim().split("\n").map(Number)).toEqual([
+        ...result.landmarks,
+    ]);
 });
 
 test("nothing_is_drawn_while_nothing_changes", async () => {
-    const { page, close } = await open();
-    await untilStatus(page, solved);
+    const { page } = opened();
+    await frames(page);
     await page.evaluate(() => {
         const counter = globalThis as unknown as { draws: number };
         counter.draws = 0;
@@ -57,30 +84,125 @@ test("nothing_is_drawn_while_nothing_changes", async () => {
     });
     const draws = () => page.evaluate(() => (globalThis as unknown as { draws: number }).draws);
     // Frames go by; none of them draws.
-    await page.evaluate(async () => {
-        for (let frame = 0; frame < 20; ++frame)
-            await new Promise((resolve) => requestAnimationFrame(resolve));
-    });
+    await frames(page, 20);
     expect(await draws()).toBe(0);
     await page.focus("#target-view canvas");
     await page.keyboard.press("ArrowLeft");
-    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(resolve)));
+    await frames(page, 1);
     expect(await draws()).toBeGreaterThan(0);
-    await close();
 });
 
 test("the_picture_that_is_taken_home_shows_the_target", async () => {
-    const { page, close } = await open();
-    await untilStatus(page, solved);
-    const [download] = await Promise.all([
-        page.waitForEvent("download"),
-        page.click("#screenshot"),
-    ]);
-    expect(download.suggestedFilename()).toMatch(/\.png$/);
-    const { readFile } = await import("node:fs/promises");
-    const png = await readFile(await download.path());
+    const { page } = opened();
+    const png = await downloaded(page, () => page.click("#screenshot"));
     expect(png.subarray(1, 4).toString()).toBe("PNG");
     // A blank picture of this size compresses to a few kilobytes.
-    expect(png.length).toBeGreaterThan(20_000);
-    await close();
+    expect(png.length).toBeGreaterThan(15_000);
+});
+
+test("paths_get_another_shape_without_a_new_search", async () => {
+    const { page } = opened();
+    const figures = async () => ({
+        cost: await page.textContent("#cost"),
+        length: await page.textContent("#length"),
+        gap: await page.textContent("#gap-value"),
+    });
+    const straight = await figures();
+    const differs = (length: string | null) =>
+        page.waitForFunction(
+            (before) => document.getElementById("length")?.textContent !== before,
+            length,
+        );
+    await page.selectOption("#shape", "even");
+    await differs(straight.length);
+    const even = await figures();
+    expect(even).toMatchObject({ cost: straight.cost, gap: straight.gap });
+    expect(Number(even.length?.replace(",", ""))).toBeGreaterThan(
+        Number(straight.length?.replace(",", "")),
+    );
+    const text = await downloaded(page, () => page.click('button[data-file="embedding.json"]'));
+    expect(JSON.parse(text.toString())).toMatchObject({ shape: "even" });
+    await page.selectOption("#shape", "short");
+    await differs(even.length);
+    expect(await figures()).toEqual(straight);
+});
+
+test("every_example_can_be_chosen_and_is_solved", async () => {
+    const { page } = opened();
+    for (const title of ["Pebble", "Knot"]) {
+        const before = await page.textContent("#target-name");
+        await choose(page, title);
+        await untilSolvedAfter(page, before);
+        expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
+    }
+});
+
+test("a_shape_of_the_gallery_is_solved_with_a_layout_of_its_landmarks", async () => {
+    const { page } = opened();
+    const before = await page.textContent("#target-name");
+    await choose(page, "Resting");
+    await untilSolvedAfter(page, before);
+    expect(await page.textContent("#target-name")).toBe("resting.obj");
+    expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
+});
+
+test("improvements_can_be_gone_through_with_the_slider", async () => {
+    const { page } = opened();
+    const slider = page.locator("#step");
+    expect(await slider.isVisible()).toBe(true);
+    const last = (await page.textContent("#step-text")) ?? "";
+    const count = Number(/ of (\d+):/.exec(last)?.[1]);
+    expect(last).toMatch(new RegExp(`^${count} of ${count}: `));
+    const cost = (text: string) => Number(/: ([\d.]+) after/.exec(text)?.[1]);
+    const picture = () => page.locator("#target-view canvas").screenshot();
+    const result = await picture();
+    await slider.press("Home");
+    const first = (await page.textContent("#step-text")) ?? "";
+    expect(first).toMatch(new RegExp(`^1 of ${count}: `));
+    expect(cost(first)).toBeGreaterThan(cost(last));
+    await frames(page);
+    expect((await picture()).equals(result)).toBe(false);
+    await slider.press("End");
+    expect(await page.textContent("#step-text")).toBe(last);
+});
+
+test("the_heuristics_are_put_beside_the_result", async () => {
+    const { page } = opened();
+    await page.keyboard.press("c");
+    const rows = page.locator("#contenders tr");
+    await rows.nth(3).waitFor();
+    expect(await rows.count()).toBe(4);
+    const shown = page.locator("#contenders button[aria-pressed=true]");
+    expect(await shown.count()).toBe(1);
+    const name = (await shown.getAttribute("aria-label"))?.replace("Show ", "");
+    expect(await page.textContent("#compare-title")).toBe(name);
+    expect(await page.isVisible("#compare-view canvas")).toBe(true);
+    expect(await page.isVisible("#layout-view")).toBe(false);
+    // What is shown is the worst; no heuristic is better than what was proved.
+    const excess = (await page.textContent("#compare-caption")) ?? "";
+    expect(excess).toMatch(/\(\+[\d.]+ %\)$/);
+    for (const text of await rows.locator("td:nth-of-type(1)").allTextContents())
+        expect(text).toMatch(/\+|the same|dead end/);
+    const other = rows.locator("button[aria-pressed=false]:enabled").first();
+    const otherName = (await other.getAttribute("aria-label"))?.replace("Show ", "");
+    await other.click();
+    expect(await page.textContent("#compare-title")).toBe(otherName);
+    await page.click("#compare-close");
+    expect(await page.isVisible("#layout-view")).toBe(true);
+});
+
+test("the_content_security_policy_stops_requests_to_other_places", async () => {
+    const { page, complaints } = opened();
+    const violated = await page.evaluate(async () => {
+        const report = new Promise<string>((resolve) =>
+            document.addEventListener("securitypolicyviolation", (event) =>
+                resolve(event.effectiveDirective),
+            ),
+        );
+        await fetch("https://example.com/").catch(() => undefined);
+        return report;
+    });
+    expect(violated).toBe("connect-src");
+    // The browser says so on the console, too.
+    expect(complaints.splice(0).join()).toMatch(/Content Security Policy/);
 });

@@ -1,14 +1,33 @@
+// Landmarks as people edit them: in the table, with the pointer, with the keys; layouts made here;
+// and input that was not what it should be.
 import { expect, test } from "vitest";
-import { choose, solved, untilSolvedAfter, untilStatus, useBrowser } from "./browser.js";
+import {
+    downloaded,
+    drop,
+    findInTarget,
+    frames,
+    numberIn,
+    ready,
+    solve,
+    untilSolved,
+    untilSolvedAfter,
+    untilStatus,
+    usePage,
+} from "./browser.js";
+import { ball, cube, toObj, type Polygons } from "./meshes.js";
 
-const open = useBrowser();
+const opened = usePage({ link: "shape=vase/tulip" });
 
-test("a_shape_of_the_gallery_is_solved_and_its_landmarks_edited_in_the_table_with_undo", async () => {
-    const { page, complaints, close } = await open();
-    await untilStatus(page, solved);
-    const before = await page.textContent("#target-name");
-    await choose(page, "Tulip");
-    await untilSolvedAfter(page, before);
+const vertexOf = async (id: number) => {
+    const input = opened().page.getByLabel(`Target vertex of landmark ${id}`, { exact: true });
+    return Number(await input.inputValue());
+};
+
+/** The number of the landmark, edge or patch in what the page says of it. */
+const numberOf = (said: string) => Number(/^\w+ (\d+)/.exec(said)?.[1]);
+
+test("landmarks_of_a_shape_are_edited_in_the_table_with_undo", async () => {
+    const { page } = opened();
     expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
     expect(await page.textContent("#landmarks-count")).toBe("14 of 14 placed");
     await page.uncheck("#live");
@@ -46,10 +65,179 @@ test("a_shape_of_the_gallery_is_solved_and_its_landmarks_edited_in_the_table_wit
     await page.click("#redo");
     expect(await vertex.inputValue()).toBe("");
     await page.click("#undo");
-    await page.click("#solve");
-    await page.waitForFunction(() => document.getElementById("solve")?.textContent === "Solve");
-    await untilStatus(page, solved);
+    await solve(page);
     expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
-    expect(complaints).toEqual([]);
-    await close();
+    await page.check("#live");
+});
+
+test("the_layout_of_one_shape_is_embedded_into_another_of_its_class", async () => {
+    const { page } = opened();
+    const layout = await page.textContent("#layout-name");
+    const before = await page.textContent("#target-name");
+    const others = await page
+        .locator("#family option:not(:checked)")
+        .evaluateAll((all) => all.map((one) => (one as HTMLOptionElement).value));
+    expect(others.length).toBeGreaterThan(0);
+    await page.selectOption("#family", others[0] ?? "");
+    await untilSolvedAfter(page, before);
+    expect(await page.textContent("#layout-name")).toBe(layout);
+    expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
+});
+
+test("an_embedding_follows_a_dragged_landmark_and_is_proved_when_the_hand_rests", async () => {
+    const { page } = opened();
+    await drop(page, [
+        { name: "cube.obj", text: toObj(cube) },
+        { name: "ball.obj", text: toObj(ball(3)) },
+    ]);
+    await untilStatus(page, ready);
+    await solve(page);
+    const cost = await page.textContent("#cost");
+    const { x, y, said } = await findInTarget(page, /^Landmark/);
+    const id = numberOf(said);
+    const vertex = await vertexOf(id);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (let step = 1; step <= 5; ++step) {
+        await page.mouse.move(x + 10 * step, y + 6 * step);
+        await frames(page, 1);
+    }
+    // The hand still holds it, and another embedding is there.
+    await page.waitForFunction(
+        (before) =>
+            document.getElementById("meaning")?.textContent?.startsWith("Quick") &&
+            document.getElementById("cost")?.textContent !== before,
+        cost,
+    );
+    expect(await page.textContent("#embedded")).toBe("12 of 12");
+    expect(await vertexOf(id)).not.toBe(vertex);
+    await page.mouse.up();
+    await untilSolved(page);
+    expect(await page.textContent("#meaning")).toMatch(/^Measured along/);
+    const moved = await page.textContent("#cost");
+    expect(moved).not.toBe(cost);
+    // The whole drag is one step.
+    await page.keyboard.press("Control+z");
+    await untilSolved(page);
+    expect(await vertexOf(id)).toBe(vertex);
+    expect(await page.textContent("#cost")).toBe(cost);
+    expect(await page.isEnabled("#redo")).toBe(true);
+});
+
+test("landmarks_patches_and_paths_show_their_figures_at_a_click", async () => {
+    const { page } = opened();
+    const title = () => page.textContent("#selection-title");
+    const figures = () => page.locator("#selection-figures > div").allTextContents();
+    const patch = await findInTarget(page, /^Patch/);
+    await page.mouse.click(patch.x, patch.y);
+    expect(await title()).toBe(patch.said);
+    const [corners, area, share] = await figures();
+    expect(corners).toMatch(/^Corners(\d, ){3}\d$/);
+    expect(area).toMatch(/^Area[\d.]+$/);
+    expect(share).toMatch(/^Share[\d.]+ %$/);
+    const edge = await findInTarget(page, /^Edge/);
+    await page.mouse.click(edge.x, edge.y);
+    expect(await title()).toBe(`Edge ${numberOf(edge.said)}`);
+    expect((await figures())[1]).toMatch(/^Length[\d.]+$/);
+    await page.keyboard.press("Escape");
+    expect(await page.isVisible("#selection")).toBe(false);
+});
+
+test("the_chosen_landmark_moves_to_its_neighbour_with_the_keys", async () => {
+    const { page } = opened();
+    const { x, y, said } = await findInTarget(page, /^Landmark/);
+    const id = numberOf(said);
+    const vertex = await vertexOf(id);
+    await page.mouse.click(x, y);
+    await page.focus("#target-view canvas");
+    await page.keyboard.press("Shift+ArrowRight");
+    await untilSolved(page);
+    const right = await vertexOf(id);
+    expect(right).not.toBe(vertex);
+    expect(await page.textContent("#selection-title")).toBe(`Landmark ${id}`);
+    await page.keyboard.press("Shift+ArrowLeft");
+    await untilSolved(page);
+    expect(await vertexOf(id)).not.toBe(right);
+    for (let step = 0; step < 2; ++step) await page.keyboard.press("Control+z");
+    await untilSolved(page);
+    expect(await vertexOf(id)).toBe(vertex);
+    await page.keyboard.press("Escape");
+});
+
+/** The cube with all faces turned around. */
+const insideOut: Polygons = { ...cube, faces: cube.faces.map((face) => [...face].reverse()) };
+
+test.for([
+    ["exchanged landmarks", cube, "1 0 2 3 4 5 6 7", "Exchange these landmarks"],
+    ["a layout inside out", insideOut, "0 1 2 3 4 5 6 7", "Turn the layout inside out"],
+] as const)("a_doubt_about_the_input_is_mended_at_a_click: %s", async ([, layout, ids, mend]) => {
+    const { page } = opened();
+    await drop(page, [
+        { name: "layout.obj", text: toObj(layout) },
+        { name: "target.obj", text: toObj(ball(3)) },
+        { name: "landmarks.txt", text: ids.replaceAll(" ", "\n") },
+    ]);
+    await untilStatus(page, ready);
+    await solve(page);
+    const cost = await numberIn(page, "#cost");
+    expect(await page.textContent("#doubts p")).toMatch(/^The .* instead of .*\.$/);
+    await page.getByRole("button", { name: mend }).click();
+    await untilSolved(page);
+    const mended = await numberIn(page, "#cost");
+    expect(mended).toBeLessThan(0.75 * cost);
+    expect(await page.locator("#doubts button").count()).toBe(0);
+    expect(await page.textContent("#embedded")).toBe("12 of 12");
+    // It can be taken back, and done again.
+    await page.click("#undo");
+    await untilSolved(page);
+    expect(await numberIn(page, "#cost")).toBe(cost);
+    await page.click("#redo");
+    await untilSolved(page);
+    expect(await numberIn(page, "#cost")).toBe(mended);
+});
+
+test("a_layout_is_made_of_landmarks_on_the_target", async () => {
+    const { page } = opened();
+    const canvas = page.locator("#target-view canvas");
+    await page.uncheck("#quads");
+    await page.click("#make-layout-2");
+    const box = await canvas.boundingBox();
+    if (!box) throw new Error("the target is not shown");
+    const place = async (x: number, y: number) => {
+        const before = await page.textContent("#landmarks-count");
+        await canvas.click({ position: { x: x * box.width, y: y * box.height } });
+        expect(await page.textContent("#landmarks-count")).not.toBe(before);
+    };
+    for (const [x, y] of [
+        [0.5, 0.5],
+        [0.42, 0.6],
+        [0.58, 0.6],
+        [0.5, 0.38],
+    ] as const)
+        await place(x, y);
+    // The other side of the ball.
+    await page.focus("#target-view canvas");
+    for (let press = 0; press < 24; ++press) await page.keyboard.press("ArrowRight");
+    await frames(page);
+    await place(0.45, 0.55);
+    await place(0.55, 0.5);
+    await page.waitForFunction(() =>
+        /^Layout of 6 landmarks/.test(document.getElementById("making-text")?.textContent ?? ""),
+    );
+    await page.click("#undo");
+    await page.waitForFunction(() =>
+        /^Layout of 5 landmarks/.test(document.getElementById("making-text")?.textContent ?? ""),
+    );
+    await page.click("#redo");
+    await page.waitForFunction(() =>
+        /^Layout of 6 landmarks/.test(document.getElementById("making-text")?.textContent ?? ""),
+    );
+    await page.click("#making-done");
+    await untilStatus(page, ready);
+    // A triangulation of a sphere with 6 vertices.
+    expect(await page.textContent("#layout-caption")).toBe("6 vertices, 12 edges, 8 faces");
+    await solve(page);
+    expect(await page.textContent("#embedded")).toBe("12 of 12");
+    const saved = await downloaded(page, () => page.click("#save-landmarks"));
+    expect(new Set(saved.toString().trim().split("\n")).size).toBe(6);
 });

@@ -1,6 +1,8 @@
 // Meshes that the tests hand to the page as files.
 import { subdivided, triangulated, type Polygons } from "../../web/src/examples/polygons.js";
 
+export type { Polygons };
+
 export const cube: Polygons = {
     positions: [-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1],
     faces: [

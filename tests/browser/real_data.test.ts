@@ -13,7 +13,7 @@ const open = useBrowser();
 test("spot_and_its_control_mesh_are_embedded_in_the_page", async (context) => {
     if (!existsSync(target) || !existsSync(layout))
         context.skip(`the data is not there: ${target}`);
-    const { page, complaints, close } = await open();
+    const { page, complaints, close } = await open({ link: "shape=vase/tulip" });
     await untilStatus(page, solved);
     await page.setInputFiles("#any-file", [target, layout]);
     await untilStatus(page, ready);

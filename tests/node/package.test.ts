@@ -248,6 +248,22 @@ describe("a session", () => {
         await session.dispose();
     });
 
+    test("shows_a_mesh_that_it_refuses_as_it_stands_in_the_file", async () => {
+        const session = await Session.create();
+        const bytes = new TextEncoder().encode("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n");
+        const error: unknown = await session
+            .loadTarget({ bytes, name: "t.obj" })
+            .catch((reason: unknown) => reason);
+        expect(error).toMatchObject({ code: "unusedVertex", details: { vertex: 3 } });
+        const shown = await session.inspect("target", { bytes, name: "t.obj" });
+        expect([...shown.positions.slice(9)]).toEqual([9, 9, 9]);
+        expect([...shown.corners]).toEqual([0, 1, 2]);
+        expect([...shown.offsets]).toEqual([0, 3]);
+        const mended = await session.inspect("target", { bytes }, { repair: true });
+        expect(mended.positions).toHaveLength(9);
+        await session.dispose();
+    });
+
     test("exports_what_it_solved_even_if_the_result_was_changed", async () => {
         const session = await Session.create();
         await session.loadLayout(problem.layout);

@@ -30,6 +30,7 @@ import type {
     TemplateLayout,
     TemplateOptions,
     TemplateProblem,
+    UncheckedMesh,
     Violation,
 } from "./types.js";
 
@@ -224,6 +225,14 @@ class WorkerSession implements EmbeddingSession {
 
     loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
         return this.call("loadTarget", [input, options]) as Promise<TargetInfo>;
+    }
+
+    inspect(
+        role: "layout" | "target",
+        input: MeshInput,
+        options: LoadOptions = {},
+    ): Promise<UncheckedMesh> {
+        return this.call("inspect", [role, input, options]) as Promise<UncheckedMesh>;
     }
 
     setLandmarks(input: LandmarkInput, options: LandmarkOptions = {}): Promise<LandmarksInfo> {

@@ -38,6 +38,7 @@ import type {
     TargetInfo,
     TemplateLayout,
     TemplateOptions,
+    UncheckedMesh,
     Violation,
 } from "./types.js";
 
@@ -98,6 +99,20 @@ export class Session implements EmbeddingSession {
         this.target = loaded;
         this.landmarks = null;
         return { ...common, positions, corners };
+    }
+
+    async inspect(
+        role: "layout" | "target",
+        input: MeshInput,
+        options: LoadOptions = {},
+    ): Promise<UncheckedMesh> {
+        this.assertAlive();
+        const { handle } = readMesh(this.core, role, input, options.repair === true);
+        try {
+            return Promise.resolve(arraysOf(this.core, handle));
+        } finally {
+            this.core.destroy(handle);
+        }
     }
 
     async setLandmarks(

@@ -52,6 +52,15 @@ export interface LoadOptions {
 /** What was done to an input, or what deserves attention; one sentence each. */
 export type Notes = string[];
 
+/** A mesh as it stands in its file, or as a repair left it; nothing is confirmed of it. */
+export interface UncheckedMesh {
+    /** 3 coordinates per vertex. */
+    positions: Float64Array;
+    /** Vertex ids per face, and where each face begins (as in MeshArrays). */
+    corners: Uint32Array;
+    offsets: Uint32Array;
+}
+
 /** A layout as it was read (and repaired). */
 export interface LayoutInfo {
     name: string;
@@ -506,6 +515,15 @@ export interface EmbeddingSession {
     loadLayout(input: MeshInput, options?: LoadOptions): Promise<LayoutInfo>;
     /** Reads a target. A failed load changes nothing; a successful one forgets the landmarks. */
     loadTarget(input: MeshInput, options?: LoadOptions): Promise<TargetInfo>;
+    /**
+     * What loadLayout() or loadTarget() would read, without confirming that it is a surface: to show
+     * the place that an error names. Changes nothing in the session.
+     */
+    inspect(
+        role: "layout" | "target",
+        input: MeshInput,
+        options?: LoadOptions,
+    ): Promise<UncheckedMesh>;
     /**
      * Sets the landmarks and confirms that layout, target and landmarks fit together. A failure
      * changes nothing.

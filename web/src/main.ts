@@ -3,7 +3,9 @@ import { Actions } from "./model/actions.js";
 import { Engine } from "./model/engine.js";
 import { initialState } from "./model/state.js";
 import { createStore } from "./model/store.js";
+import { batchPanel } from "./panels/batch.js";
 import { comparePanel } from "./panels/compare.js";
+import { doubtsPanel } from "./panels/doubts.js";
 import { downloadsPanel } from "./panels/downloads.js";
 import { element } from "./panels/dom.js";
 import { dropAnywhere } from "./panels/drop.js";
@@ -20,12 +22,15 @@ import { solvePanel, toggleSolve } from "./panels/solve.js";
 import { stage } from "./panels/stage.js";
 import { themePanel } from "./panels/theme.js";
 import { startWorker } from "./session.js";
-import "./style.css";
+import "./style/index.css";
 
 // State flows one way: actions change the store, views redraw what they watch in it.
 const store = createStore(initialState);
 const actions = new Actions(store, new Engine(startWorker));
-const openFiles = (files: readonly File[]) => void keep.openFiles(files);
+const openFiles = (files: readonly File[]) => {
+    if (!batchTakes(files)) void keep.openFiles(files);
+};
+const batchTakes = batchPanel(store, actions);
 
 themePanel(store, actions);
 problemsPanel(store, actions);
@@ -33,6 +38,7 @@ galleryPanel(store, actions);
 inputPanel(store, actions, openFiles);
 landmarksPanel(store, actions);
 solvePanel(store, actions);
+doubtsPanel(store, actions);
 plotPanel(store, actions);
 resultPanel(store, actions);
 comparePanel(store, actions);

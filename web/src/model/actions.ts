@@ -1,7 +1,23 @@
-import type { Algorithm, EmbedProgress, MeshArrays, MeshInput } from "layout-embedding";
+import type {
+    Algorithm,
+    EmbedProgress,
+    LandmarkDoubt,
+    LayoutInfo,
+    MeshArrays,
+    MeshInput,
+    PathShape,
+} from "layout-embedding";
 import type { Example } from "../examples/index.js";
 import type { Shape } from "../gallery/catalogue.js";
-import { algorithmWords, improvingWords, phaseWords, titleOf } from "./describe.js";
+import { Batch, pairFiles } from "./batch.js";
+import {
+    algorithmWords,
+    causeAndAdvice,
+    improvingWords,
+    phaseWords,
+    reshapeWords,
+    titleOf,
+} from "./describe.js";
 import type { Engine } from "./engine.js";
 import { assignRoles, look } from "./files.js";
 import { LandmarkEditor, unsolved } from "./landmark_editor.js";
@@ -12,8 +28,9 @@ import {
     placedLandmarks,
     type Landmarks,
 } from "./landmarks.js";
-import type { Activity, AppState, Display, Item, Origin, Problem } from "./state.js";
+import { landmarksOf, lineOf, meshPlace } from "./places.js";
 import type { Store } from "./store.js";
+import type { Activity, AppState, Display, Item, Origin, Problem } from "./state.js";
 import { TraceRecorder } from "./trace.js";
 
 /** The same file or arrays can be read again: file contents are fetched each time. */
@@ -62,11 +79,14 @@ async function inputOf(source: Source): Promise<MeshInput> {
  */
 export class Actions {
     readonly landmarks: LandmarkEditor;
+    private readonly batch: Batch;
     private readonly sources: Partial<Record<Role, Source>> = {};
     private queue: Promise<void> = Promise.resolve();
     private abort: AbortController | null = null;
     private problemCount = 0;
     private previewing = false;
+    /** Whether the engine has the layout turned inside out; the state says what is wanted. */
+    private layoutFlipped = false;
 
     constructor(
         private readonly store: Store<AppState>,
@@ -75,6 +95,10 @@ export class Actions {
         this.landmarks = new LandmarkEditor(store, {
             dragged: () => void this.preview(),
             edited: (wasSolved) => this.afterEdit(wasSolved),
+        });
+        this.batch = new Batch(engine, (entries, running) => {
+            const { batch } = store.get();
+            if (batch) store.update({ batch: { ...batch, entries, running } });
         });
     }
 
@@ -163,6 +187,40 @@ export class Actions {
         return { layout, target, landmarks, making, quads, repair, options, origin };
     }
 
+    /** Another target for the layout there is, solved. */
+    openTarget(target: File, landmarks: File | null): Promise<void> {
+        return this.enqueue(async () => {
+            this.startAnew(null);
+            if (!(await this.load("target", target))) return;
+            if (landmarks) await this.readLandmarks(landmarks);
+            else await this.guessLandmarks();
+            await this.runSolve();
+        });
+    }
+
+    /** Embeds the layout into many targets; what is open stays as it is. */
+    async runBatch(files: readonly File[]): Promise<void> {
+        const { layout, repair, options } = this.store.get();
+        const { entries, leftOver } = pairFiles(files);
+        if (!layout || entries.length === 0) return;
+        const names = leftOver.map(({ name }) => name).join(", ");
+        const batch = {
+            layoutName: layout.name,
+            note: names === "" ? "" : `No target is named like ${names}.`,
+        };
+        this.store.update({ batch: { ...batch, entries, running: true } });
+        await this.batch.run(entries, repair, options);
+    }
+
+    cancelBatch(): void {
+        this.batch.cancel();
+    }
+
+    /** The files of all embeddings of the batch, with a table. */
+    batchFiles(): Readonly<Record<string, Uint8Array>> {
+        return this.batch.packed(this.store.get().batch?.entries ?? []);
+    }
+
     /** The layout becomes the target, the target the layout. */
     swap(): Promise<void> {
         return this.enqueue(async () => {
@@ -236,7 +294,11 @@ export class Actions {
             const contenders = [];
             for (const algorithm of heuristics) {
                 const result = await this.attempt(`Trying ${algorithmWords(algorithm)}`, () =>
-                    this.engine.solveBeside(ids, { algorithm, seed: options.seed }),
+                    this.engine.solveBeside(ids, {
+                        algorithm,
+                        seed: options.seed,
+                        shape: options.shape,
+                    }),
                 );
                 if (!result) return;
                 contenders.push({ algorithm, result });
@@ -282,6 +344,22 @@ export class Actions {
         this.store.update({ options: { ...this.store.get().options, ...change } });
     }
 
+    /** How paths run; a result gets the shape without a new search. */
+    setShape(shape: PathShape): void {
+        this.setOptions({ shape });
+        // A search that runs goes on.
+        this.queue = this.queue
+            .then(() => this.reshape())
+            .catch((error: unknown) => this.report(error));
+    }
+
+    /** Changes the input into what it probably was meant to be. */
+    mend({ vertices }: LandmarkDoubt): void {
+        if (vertices) this.landmarks.exchange(...vertices);
+        else this.landmarks.flip();
+        if (!this.store.get().live) void this.solve();
+    }
+
     setRepair(repair: boolean): void {
         this.store.update({ repair });
     }
@@ -305,7 +383,16 @@ export class Actions {
     }
 
     dismiss(id: number): void {
-        this.store.update({ problems: this.store.get().problems.filter((p) => p.id !== id) });
+        const { problems, shownPlace } = this.store.get();
+        this.store.update({
+            problems: problems.filter((p) => p.id !== id),
+            shownPlace: shownPlace === id ? null : shownPlace,
+        });
+    }
+
+    /** Shows where a problem lies; null for none. */
+    showPlace(id: number | null): void {
+        this.store.update({ shownPlace: id });
     }
 
     /** Says something that is worth a line, but no problem. */
@@ -314,13 +401,27 @@ export class Actions {
     }
 
     /** Shows something thrown as a problem. */
-    report(error: unknown, remedy: Problem["remedy"] = null): void {
+    report(error: unknown, more: Partial<Problem> = {}): void {
         const code = error instanceof Error && "code" in error ? String(error.code) : "internal";
         const message = error instanceof Error ? error.message : String(error);
-        const problem = { id: ++this.problemCount, code, title: titleOf(code), message, remedy };
+        const { problems, landmarks } = this.store.get();
+        const problem: Problem = {
+            id: ++this.problemCount,
+            code,
+            title: titleOf(code),
+            ...causeAndAdvice(message),
+            line: null,
+            place: landmarksOf(error, landmarks),
+            about: null,
+            remedy: null,
+            ...more,
+        };
         // The same sentence twice helps nobody.
-        const others = this.store.get().problems.filter((p) => p.message !== message);
-        this.store.update({ problems: [...others, problem] });
+        const others = problems.filter(({ cause }) => cause !== problem.cause);
+        this.store.update({
+            problems: [...others, problem],
+            shownPlace: problem.place ? problem.id : null,
+        });
     }
 
     private enqueue(task: () => Promise<void>): Promise<void> {
@@ -334,6 +435,7 @@ export class Actions {
         this.store.update({
             notices: [],
             origin,
+            flipped: false,
             making: false,
             makingHint: null,
             placing: null,
@@ -344,13 +446,13 @@ export class Actions {
     private async attempt<Result>(
         phase: string,
         task: () => Promise<Result>,
-        remedy: (error: unknown) => Problem["remedy"] = () => null,
+        report: (error: unknown) => void | Promise<void> = (error) => this.report(error),
     ): Promise<Result | null> {
         this.store.update({ activity: activity("loading", phase) });
         try {
             return await task();
         } catch (error) {
-            this.report(error, remedy(error));
+            await report(error);
             return null;
         } finally {
             this.store.update({ activity: null });
@@ -358,11 +460,11 @@ export class Actions {
     }
 
     private async load(role: Role, source: Source): Promise<boolean> {
+        const options = { repair: this.store.get().repair };
         const loaded = await this.attempt(
             `Reading ${nameOf(source)}`,
             async () => {
                 const input = await inputOf(source);
-                const options = { repair: this.store.get().repair };
                 if (role === "layout") {
                     const layout = await this.engine.loadLayout(input, options);
                     this.store.update({ ...nothingSolved, layout });
@@ -372,16 +474,30 @@ export class Actions {
                 this.store.update({ ...nothingSolved, target });
                 return target;
             },
-            (error) => this.repairRemedy(role, source, error),
+            async (error) => {
+                this.report(error, {
+                    about: role,
+                    remedy: this.repairRemedy(role, source, error),
+                    line: source instanceof File ? await lineOf(error, source) : null,
+                    place: await meshPlace(error, role, nameOf(source), async () =>
+                        this.engine.inspect(role, await inputOf(source), options),
+                    ),
+                });
+            },
         );
         if (!loaded) return false;
         this.sources[role] = source;
+        if (role === "layout") {
+            this.layoutFlipped = false;
+            this.store.update({ flipped: false });
+        }
         const { notices, problems, layout, target, landmarks } = this.store.get();
         const names = landmarks?.names.length === layout?.vertexCount ? landmarks?.names : [];
         this.store.update({
             notices: [...notices, ...loaded.notes],
             // What was wrong with an earlier attempt at this role is settled.
-            problems: problems.filter((p) => p.remedy === null),
+            problems: problems.filter(({ about }) => about !== role),
+            shownPlace: null,
             landmarks: layout && target ? missingLandmarks(layout.vertexCount, names) : null,
         });
         return true;
@@ -434,11 +550,44 @@ export class Actions {
 
     /** What an edit of the landmarks entails: in live mode, what was solved is solved again. */
     private afterEdit(wasSolved: boolean): void {
-        const { making, live, landmarks, activity } = this.store.get();
+        const { making, live, landmarks, activity, flipped } = this.store.get();
         if (making) void this.enqueue(() => this.rebuildLayout());
+        else if (flipped !== this.layoutFlipped)
+            void this.enqueue(async () => {
+                await this.turnLayout();
+                if (live && wasSolved) await this.runSolve();
+            });
         else if (live && wasSolved && landmarks && completeIds(landmarks)) void this.solve();
         // A solve for other landmarks is of no use any more.
         else if (activity?.kind === "solving") this.cancel();
+    }
+
+    /** Loads the layout inside out where that is wanted; its vertices keep their landmarks. */
+    private async turnLayout(): Promise<void> {
+        const { layout, flipped } = this.store.get();
+        if (!layout || flipped === this.layoutFlipped) return;
+        const source: MeshArrays = {
+            name: layout.name,
+            positions: layout.positions,
+            corners: turnedFaces(layout),
+            offsets: layout.offsets,
+        };
+        const turned = await this.attempt("Turning the layout", () =>
+            this.engine.loadLayout(source, {}),
+        );
+        if (!turned) return;
+        this.sources.layout = source;
+        this.layoutFlipped = flipped;
+        this.store.update({ ...nothingSolved, layout: turned });
+    }
+
+    /** Gives the result the shape that is wanted. */
+    private async reshape(): Promise<void> {
+        const { result, options } = this.store.get();
+        if (!result?.refined) return;
+        const { shape } = options;
+        const reshaped = await this.attempt(reshapeWords[shape], () => this.engine.reshape(shape));
+        if (reshaped) this.store.update({ result: reshaped, step: null });
     }
 
     /** Makes the layout of the landmarks on the target, while it is being made. */
@@ -498,6 +647,7 @@ export class Actions {
                     algorithm: "greedy",
                     timeLimit: previewSeconds,
                     seed: options.seed,
+                    shape: options.shape,
                 });
                 const now = this.store.get();
                 // The hand may have gone on, or come to rest and been overtaken by the full solve.
@@ -523,6 +673,7 @@ export class Actions {
             activity: activity("solving", phaseWords.prepare),
             preview: this.store.get().preview,
             problems: [],
+            shownPlace: null,
         });
         const recorder = new TraceRecorder();
         // The views are brought up to date once per frame, however often the worker reports.
@@ -536,10 +687,11 @@ export class Actions {
         };
         try {
             await this.engine.useLandmarks(ids);
-            const { algorithm, gap, seed, timeLimit, workLimit } = options;
+            const { algorithm, gap, seed, shape, timeLimit, workLimit } = options;
             const result = await this.engine.solve({
                 gap,
                 seed,
+                shape,
                 ...(algorithm !== null && { algorithm }),
                 ...(timeLimit !== null && { timeLimit }),
                 ...(workLimit !== null && { workLimit }),
@@ -587,6 +739,14 @@ export class Actions {
             ...(paths ? { livePaths: paths, preview: null } : {}),
         });
     }
+}
+
+/** The corners of a layout's faces, each face the other way round from its first corner. */
+function turnedFaces({ corners, offsets }: LayoutInfo): Uint32Array {
+    const turned = corners.slice();
+    for (let f = 0; f + 1 < offsets.length; ++f)
+        turned.subarray(offsets[f]! + 1, offsets[f + 1]).reverse();
+    return turned;
 }
 
 function sameIds(a: Uint32Array | null, b: Uint32Array): boolean {

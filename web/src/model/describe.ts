@@ -1,4 +1,4 @@
-import type { Algorithm, EmbedPhase, EmbedResult, EmbedStatus } from "layout-embedding";
+import type { Algorithm, EmbedPhase, EmbedResult, EmbedStatus, PathShape } from "layout-embedding";
 
 const numbers = new Intl.NumberFormat("en", { maximumSignificantDigits: 6 });
 const counts = new Intl.NumberFormat("en");
@@ -66,8 +66,78 @@ export function meaning(result: EmbedResult): string {
     return `${claim}; this one is at most ${formatGap(result.gap)} of its length away from that.`;
 }
 
-/** A readable title for an error code, for example "Not triangles". */
-export function titleOf(code: string): string {
-    const words = code.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`);
-    return words.charAt(0).toUpperCase() + words.slice(1);
+export const shapeWords: Record<PathShape, string> = {
+    short: "Straight",
+    even: "Evenly spaced",
+    fair: "Fair to patches",
+};
+
+/** What is going on while paths get a shape. */
+export const reshapeWords: Record<PathShape, string> = {
+    short: "Pulling the paths straight",
+    even: "Spacing the paths evenly",
+    fair: "Evening the patches out",
+};
+
+const titles: Partial<Record<string, string>> = {
+    fileEmpty: "The file is empty",
+    unknownFormat: "The file's format is unknown",
+    syntaxError: "The file cannot be understood",
+    indexOutOfRange: "A face has a vertex that does not exist",
+    faceTooLarge: "A face has too many corners",
+    tooLarge: "The mesh is too large",
+    noFaces: "The mesh has no faces",
+    notTriangles: "The target is not made of triangles",
+    nonFinitePosition: "A coordinate is no number",
+    coordinateTooLarge: "Coordinates are out of proportion",
+    degenerateFace: "A face has no area",
+    duplicateFace: "A face is there twice",
+    coincidentVertices: "Vertices lie on top of each other",
+    unusedVertex: "A vertex belongs to no face",
+    nonManifoldEdge: "More than two faces meet at an edge",
+    nonManifoldVertex: "The surface touches itself at a vertex",
+    inconsistentOrientation: "Neighbouring faces are turned against each other",
+    severalComponents: "The mesh has several pieces",
+    layoutLoop: "A layout edge ends where it begins",
+    landmarkCount: "The number of landmarks does not fit",
+    landmarkOutOfRange: "A landmark is not on the target",
+    duplicateLandmark: "Two landmarks are in one place",
+    landmarkOnBoundary: "A landmark is on the rim",
+    topologyMismatch: "Layout and target do not fit together",
+    tooFewLandmarks: "There are too few landmarks",
+    tooFewLandmarksForSurface: "There are too few landmarks",
+    templateNotReached: "No layout could be made",
+    memoryLimit: "There is too little memory",
+    unresolvedTie: "Paths are exactly equally long",
+    realisationFailed: "The embedding could not be cut into the mesh",
+    crashed: "The solver crashed",
+    workerFailed: "The solver could not be started",
+    workerTerminated: "The solver was stopped",
+    moduleNotLoaded: "The solver could not be loaded",
+    internal: "Something went wrong",
+};
+
+/**
+ * The two halves of an error's sentence, "what and where; what to do.", each as a sentence. What is
+ * only possible on the command line is left out.
+ */
+export function causeAndAdvice(message: string): { cause: string; advice: string } {
+    const [, cause, advice] = /^(.*); (.*?)\.?$/s.exec(message) ?? [];
+    if (!cause || !advice) return { cause: sentence(message), advice: "" };
+    return { cause: sentence(cause), advice: sentence(advice.replace(/ \(--\w+\)/g, "")) };
 }
+
+/** The words with a full stop and, unless they begin with a file's name, a capital. */
+export function sentence(words: string): string {
+    const capital = words.replace(/^[a-z]+(?= )/, (word) => capitalised(word));
+    return /[.!?]$/.test(capital) ? capital : `${capital}.`;
+}
+
+/** A title for an error code, for people; a code without one is spelled out: "Not triangles". */
+export function titleOf(code: string): string {
+    return (
+        titles[code] ?? capitalised(code.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`))
+    );
+}
+
+const capitalised = (words: string) => words.charAt(0).toUpperCase() + words.slice(1);

@@ -9,10 +9,12 @@ import type {
     LayoutInfo,
     LoadOptions,
     MeshInput,
+    PathShape,
     SolveOptions,
     TargetInfo,
     TemplateLayout,
     TemplateOptions,
+    UncheckedMesh,
 } from "layout-embedding";
 
 /** A worker of the package, and how to end it from outside. */
@@ -105,6 +107,43 @@ export class Engine {
             await session.setLandmarks(landmarks, { numbering: "loaded" });
             return session.solve(options);
         });
+    }
+
+    /** Embeds the layout into another target, apart from everything else; no landmarks: by proximity. */
+    solveElsewhere(
+        target: MeshInput,
+        landmarks: LandmarkInput | null,
+        load: LoadOptions,
+        options: SolveOptions,
+    ): Promise<{ result: EmbedResult; files: ExportedFiles | null }> {
+        return this.use(async ({ worker }) => {
+            const session = await worker.createSession();
+            try {
+                if (this.layout) await session.loadLayout(...this.layout);
+                await session.loadTarget(target, load);
+                await (landmarks
+                    ? session.setLandmarks(landmarks)
+                    : session.landmarksByProximity());
+                const result = await session.solve(options);
+                return { result, files: result.refined ? await session.exportFiles() : null };
+            } finally {
+                await session.dispose().catch(() => undefined);
+            }
+        });
+    }
+
+    /** Another shape for the paths of the last solve(). */
+    reshape(shape: PathShape): Promise<EmbedResult> {
+        return this.use(({ main }) => main.reshape(shape));
+    }
+
+    /** A mesh that was refused, as it stands in its file. */
+    inspect(
+        role: "layout" | "target",
+        input: MeshInput,
+        options: LoadOptions,
+    ): Promise<UncheckedMesh> {
+        return this.use(({ main }) => main.inspect(role, input, options));
     }
 
     exportFiles(): Promise<ExportedFiles> {

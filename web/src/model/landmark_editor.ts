@@ -30,9 +30,15 @@ export interface EditListener {
     edited: (wasSolved: boolean) => void;
 }
 
+/** What edits change, and undo brings back. */
+interface Edited {
+    readonly landmarks: Landmarks;
+    readonly flipped: boolean;
+}
+
 /** Every way to edit landmarks by hand; each edit can be taken back. */
 export class LandmarkEditor {
-    private readonly history = new History<Landmarks>();
+    private readonly history = new History<Edited>();
     private beforeDrag: Landmarks | null = null;
     private solvedBeforeDrag = false;
 
@@ -129,7 +135,7 @@ export class LandmarkEditor {
         const before = this.beforeDrag;
         this.beforeDrag = null;
         if (!before || before === this.store.get().landmarks) return;
-        this.history.record(before);
+        this.history.record({ ...this.current(), landmarks: before });
         this.changed(this.solvedBeforeDrag);
     }
 
@@ -150,9 +156,33 @@ export class LandmarkEditor {
         const { landmarks } = this.store.get();
         if (!landmarks || landmarks.names[id] === name.trim()) return;
         // A name changes nothing that was solved.
-        this.history.record(landmarks);
+        this.history.record(this.current());
         this.store.update({ landmarks: withName(landmarks, id, name.trim()) });
         this.tellHistory();
+    }
+
+    /** Two layout vertices get each other's landmarks. */
+    exchange(a: number, b: number): void {
+        const { landmarks } = this.store.get();
+        const [placeA, placeB] = [landmarks?.places[a] ?? null, landmarks?.places[b] ?? null];
+        if (!landmarks || placeA === null || placeB === null) return;
+        this.apply(withPlace(withPlace(landmarks, a, placeB), b, placeA));
+        const [first, second] = [a, b].map((id) => landmarkLabel(landmarks, id));
+        this.store.update({
+            announcement: `Landmarks ${first} and ${second} have changed places.`,
+        });
+    }
+
+    /** Turns all faces of the layout around. */
+    flip(): void {
+        const wasSolved = this.isSolved();
+        this.history.record(this.current());
+        this.store.update({
+            ...unsolved,
+            flipped: !this.store.get().flipped,
+            announcement: "The layout was turned inside out.",
+        });
+        this.changed(wasSolved);
     }
 
     /** All landmarks at once, from a file or by proximity. */
@@ -186,18 +216,21 @@ export class LandmarkEditor {
         this.tellHistory();
     }
 
-    private current(): Landmarks {
-        return this.store.get().landmarks ?? noLandmarks;
+    private current(): Edited {
+        const { landmarks, flipped } = this.store.get();
+        return { landmarks: landmarks ?? noLandmarks, flipped };
     }
 
-    private go(landmarks: Landmarks | null, announcement: string): void {
-        if (!landmarks) return;
+    private go(edited: Edited | null, announcement: string): void {
+        if (!edited) return;
+        const { landmarks, flipped } = edited;
         const { making, placing } = this.store.get();
         const goOn = making || placing !== null;
         const wasSolved = this.isSolved();
         this.store.update({
             ...unsolved,
             landmarks,
+            flipped,
             selected: null,
             placing: making
                 ? landmarks.places.length
@@ -210,8 +243,7 @@ export class LandmarkEditor {
     }
 
     private apply(landmarks: Landmarks, wasSolved = this.isSolved()): void {
-        const before = this.store.get().landmarks;
-        if (before) this.history.record(before);
+        if (this.store.get().landmarks) this.history.record(this.current());
         this.store.update({ ...unsolved, landmarks });
         this.changed(wasSolved);
     }

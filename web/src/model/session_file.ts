@@ -109,7 +109,7 @@ async function bytesOf(source: Source): Promise<Uint8Array> {
 }
 
 /** Every coordinate as it is: JavaScript writes numbers so that they read back the same. */
-function objOf({ positions, corners, offsets }: MeshArrays): Uint8Array {
+export function objOf({ positions, corners, offsets }: MeshArrays): Uint8Array {
     const lines: string[] = [];
     for (let v = 0; v < positions.length; v += 3)
         lines.push(`v ${positions[v]} ${positions[v + 1]} ${positions[v + 2]}`);

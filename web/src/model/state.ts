@@ -1,4 +1,14 @@
-import type { Algorithm, EmbedResult, LayoutInfo, Polylines, TargetInfo } from "layout-embedding";
+import type {
+    Algorithm,
+    BoundScope,
+    EmbedResult,
+    EmbedStatus,
+    LayoutInfo,
+    PathShape,
+    Polylines,
+    TargetInfo,
+    UncheckedMesh,
+} from "layout-embedding";
 import type { Landmarks } from "./landmarks.js";
 import type { Trace } from "./trace.js";
 
@@ -12,6 +22,8 @@ export interface SolveSettings {
     /** Units of work; null for the algorithm's own limit. */
     readonly workLimit: number | null;
     readonly seed: number;
+    /** How paths run within their classes; another one needs no new search. */
+    readonly shape: PathShape;
 }
 
 /** What the worker is doing, as shown while it does it. */
@@ -29,13 +41,32 @@ export interface Activity {
     readonly cancelling: boolean;
 }
 
+/** Where a problem lies: in a mesh that was refused, or at landmarks on the target. */
+export type Place =
+    | {
+          readonly kind: "mesh";
+          readonly role: "layout" | "target";
+          readonly name: string;
+          readonly mesh: UncheckedMesh;
+          readonly vertices: readonly number[];
+          readonly faces: readonly number[];
+      }
+    | { readonly kind: "landmarks"; readonly ids: readonly number[] };
+
 /** One problem, for people. */
 export interface Problem {
     readonly id: number;
     readonly code: string;
     readonly title: string;
-    /** The core's own sentence. */
-    readonly message: string;
+    /** What is wrong, and where; with the advice, the core's own sentence. */
+    readonly cause: string;
+    /** What to do about it; empty where nobody knows. */
+    readonly advice: string;
+    /** The line of the file that it is about; null where it is about none. */
+    readonly line: string | null;
+    readonly place: Place | null;
+    /** What was being read; null for everything else. */
+    readonly about: "layout" | "target" | null;
     /** What may help, as a button; null where nothing here does. */
     readonly remedy: { readonly label: string; readonly apply: () => void } | null;
 }
@@ -57,6 +88,37 @@ export interface Comparison {
     readonly contenders: readonly Contender[];
     /** The one shown beside the result; null for none. */
     readonly shown: number | null;
+}
+
+/** What a target of a batch came to; lengths as in EmbedResult. */
+export interface BatchFigures {
+    readonly status: EmbedStatus;
+    readonly cost: number;
+    readonly lowerBound: number;
+    readonly gap: number;
+    readonly boundScope: BoundScope;
+    /** On the surface; null without an embedding. */
+    readonly length: number | null;
+    readonly seconds: number;
+}
+
+/** A target of a batch. */
+export interface BatchEntry {
+    readonly target: File;
+    /** Null: by proximity. */
+    readonly landmarks: File | null;
+    readonly state: "waiting" | "running" | "done" | "failed";
+    readonly figures: BatchFigures | null;
+    readonly error: string | null;
+}
+
+/** One layout in many targets. */
+export interface BatchState {
+    readonly layoutName: string;
+    readonly entries: readonly BatchEntry[];
+    readonly running: boolean;
+    /** What was noticed about the files, for people; empty for nothing. */
+    readonly note: string;
 }
 
 /** Where the input came from, for links and for other targets of the same class. */
@@ -88,6 +150,8 @@ export interface AppState {
     readonly origin: Origin | null;
     /** Null while layout or target is missing, unless a layout is being made. */
     readonly landmarks: Landmarks | null;
+    /** Whether the layout's faces are turned around, after an edit that can be taken back. */
+    readonly flipped: boolean;
     /** Whether the layout is made from the landmarks on the target. */
     readonly making: boolean;
     /** Whether a layout that is made here gets quads where that is possible. */
@@ -113,8 +177,12 @@ export interface AppState {
     readonly preview: EmbedResult | null;
     readonly result: EmbedResult | null;
     readonly comparison: Comparison | null;
+    /** Null until one was started. */
+    readonly batch: BatchState | null;
     /** Newest last. */
     readonly problems: readonly Problem[];
+    /** The problem whose place is shown; null for none. */
+    readonly shownPlace: number | null;
     /** What was done with dropped files, what a repair did; the latest only. */
     readonly notices: readonly string[];
     /** What an edit did, for screen readers. */
@@ -131,6 +199,7 @@ export const initialState: AppState = {
     target: null,
     origin: null,
     landmarks: null,
+    flipped: false,
     making: false,
     quads: true,
     makingHint: null,
@@ -138,7 +207,14 @@ export const initialState: AppState = {
     undoable: false,
     redoable: false,
     live: true,
-    options: { algorithm: null, gap: 0.01, timeLimit: null, workLimit: null, seed: 1 },
+    options: {
+        algorithm: null,
+        gap: 0.01,
+        timeLimit: null,
+        workLimit: null,
+        seed: 1,
+        shape: "short",
+    },
     repair: false,
     activity: null,
     livePaths: null,
@@ -147,7 +223,9 @@ export const initialState: AppState = {
     preview: null,
     result: null,
     comparison: null,
+    batch: null,
     problems: [],
+    shownPlace: null,
     notices: [],
     announcement: "",
     highlight: null,

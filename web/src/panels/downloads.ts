@@ -1,7 +1,8 @@
 import { strToU8, zip, type Zippable } from "fflate";
 import type { Actions } from "../model/actions.js";
+import { landmarkFile } from "../model/landmark_file.js";
 import { completeIds } from "../model/landmarks.js";
-import { packSession } from "../model/session_file.js";
+import { objOf, packSession } from "../model/session_file.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { download, element } from "./dom.js";
@@ -33,13 +34,16 @@ export function downloadsPanel(
         return button;
     };
     const all = onClick("download-all", async () => {
-        const { landmarks } = store.get();
+        const { landmarks, target } = store.get();
         const files: Zippable = {
             ...(await actions.exportFiles()),
             ...(await actions.exportFormats()),
         };
         const ids = landmarks && completeIds(landmarks);
-        if (ids) files["landmarks.txt"] = strToU8(`${ids.join("\n")}\n`);
+        if (ids && target) files["landmarks.txt"] = strToU8(landmarkFile(ids, target));
+        // A layout that was made here is nowhere else.
+        const { layout } = actions.saved();
+        if (layout && "corners" in layout) files["layout.obj"] = objOf(layout);
         download("embedding.zip", await zipped(files));
     });
     onClick("screenshot", async () => download("embedding.png", await screenshot()));
@@ -66,7 +70,7 @@ export function downloadsPanel(
     };
 }
 
-function zipped(files: Zippable): Promise<Blob> {
+export function zipped(files: Zippable): Promise<Blob> {
     return new Promise((resolve, reject) => {
         zip(files, (error, bytes) => {
             if (error) reject(error);

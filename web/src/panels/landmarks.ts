@@ -1,4 +1,5 @@
 import type { Actions } from "../model/actions.js";
+import { landmarkFile } from "../model/landmark_file.js";
 import { completeIds, countPlaced } from "../model/landmarks.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
@@ -155,14 +156,13 @@ function setValue(input: HTMLInputElement, value: string): void {
     if (input.value !== value) input.value = value;
 }
 
-/** One target vertex per line, as every reader of landmarks here takes it. */
 function saveLandmarks(store: Store<AppState>): void {
     const { landmarks, target } = store.get();
     const ids = landmarks && completeIds(landmarks);
-    if (!ids) return;
-    // A file counts for the target as it was given, before any repair.
-    const map = target?.vertexMap;
-    const given = Array.from(ids, (vertex) => (map ? map.indexOf(vertex) : vertex));
-    const name = (target?.name ?? "target").replace(/\.[^.]*$/, "");
-    download(`${name}_landmarks.txt`, new Blob([`${given.join("\n")}\n`], { type: "text/plain" }));
+    if (!ids || !target) return;
+    const name = target.name.replace(/\.[^.]*$/, "");
+    download(
+        `${name}_landmarks.txt`,
+        new Blob([landmarkFile(ids, target)], { type: "text/plain" }),
+    );
 }

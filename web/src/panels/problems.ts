@@ -28,6 +28,16 @@ export function problemsPanel(store: Store<AppState>, actions: Actions): void {
                 }
         },
     );
+    store.watch(
+        (state) => [state.shownPlace, state.problems],
+        (shownPlace, _problems) => {
+            for (const [id, card] of shown)
+                card.querySelector(".show-place")?.setAttribute(
+                    "aria-pressed",
+                    String(id === shownPlace),
+                );
+        },
+    );
 }
 
 function card(problem: Problem, actions: Actions): HTMLElement {
@@ -37,8 +47,23 @@ function card(problem: Problem, actions: Actions): HTMLElement {
     const text = create("div");
     const head = create("p");
     head.append(title, " ", code);
-    text.append(head, create("p", problem.message, "message"));
+    text.append(head, create("p", problem.cause, "cause"));
+    if (problem.line !== null) {
+        const line = create("pre");
+        line.append(create("code", problem.line));
+        text.append(line);
+    }
+    if (problem.advice !== "") text.append(create("p", problem.advice, "advice"));
     const buttons = create("div", "", "buttons");
+    if (problem.place) {
+        const show = create("button", "Show where", "show-place");
+        show.type = "button";
+        show.addEventListener("click", () => {
+            const isShown = show.getAttribute("aria-pressed") === "true";
+            actions.showPlace(isShown ? null : problem.id);
+        });
+        buttons.append(show);
+    }
     if (problem.remedy) {
         const { label, apply } = problem.remedy;
         const mend = create("button", label);

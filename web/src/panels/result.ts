@@ -9,22 +9,26 @@ import { create, element, setText } from "./dom.js";
 /** The figures of the result, or of the search while it runs. */
 export function resultPanel(store: Store<AppState>, actions: Actions): void {
     store.watch(
-        (state) => [state.result, state.activity, state.livePaths, state.layout],
-        (result, activity, livePaths, layout) => {
+        (state) => [state.result, state.preview, state.activity, state.livePaths, state.layout],
+        (result, preview, activity, livePaths, layout) => {
             const total = layout?.edgeCount ?? 0;
-            const embedded = result?.refined ? total : (livePaths?.layoutEdges.length ?? 0);
+            const shown = result ?? (activity ? null : preview);
+            const embedded = shown?.refined ? total : (livePaths?.layoutEdges.length ?? 0);
             setText("embedded", layout ? `${embedded} of ${total}` : "–");
-            const figures = result ?? (activity?.kind === "solving" ? activity : null);
+            const figures = shown ?? (activity?.kind === "solving" ? activity : null);
             const cost = figures?.cost ?? Infinity;
             const bound = figures?.lowerBound ?? 0;
             setText("cost", formatLength(cost));
             setText("lower-bound", bound > 0 ? formatLength(bound) : "–");
             setText(
                 "gap-value",
-                Number.isFinite(cost) ? formatGap(result?.gap ?? (cost - bound) / cost) : "–",
+                Number.isFinite(cost) ? formatGap(shown?.gap ?? (cost - bound) / cost) : "–",
             );
-            setText("length", result?.refined ? formatLength(surfaceLength(result)) : "–");
-            setText("meaning", result ? meaning(result) : "");
+            setText("length", shown?.refined ? formatLength(surfaceLength(shown)) : "–");
+            setText(
+                "meaning",
+                result ? meaning(result) : shown ? "Quick, while the landmark moves." : "",
+            );
         },
     );
 

@@ -1,6 +1,6 @@
-import type { EmbedResult, Polylines, RefinedMesh } from "layout-embedding";
+import type { EmbedResult, PathShape, Polylines, RefinedMesh } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
-import { formatLength } from "../model/describe.js";
+import { formatLength, shapeWords } from "../model/describe.js";
 import { visibleDetours } from "../model/detours.js";
 import { landmarkLabel } from "../model/landmarks.js";
 import type { AppState, Display, Item } from "../model/state.js";
@@ -8,12 +8,14 @@ import type { Store } from "../model/store.js";
 import { chainPaths } from "../view3d/geometry.js";
 import { LayoutView } from "../view3d/layout_view.js";
 import type { MeshView, Sighting } from "../view3d/mesh_view.js";
+import { PlaceView } from "../view3d/place_view.js";
 import { TargetView } from "../view3d/target_view.js";
 import { element, setText } from "./dom.js";
 import { selectionCard } from "./selection.js";
 import { onThemeChange } from "./theme.js";
 
 const keys = "Arrow keys turn it, plus and minus zoom.";
+const pathShapes: readonly PathShape[] = ["short", "even", "fair"];
 
 /** What shortcuts do in the views. */
 export interface Stage {
@@ -86,9 +88,17 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
         (state) => [state.layout, state.landmarks],
         (_, landmarks) => layoutView.setLandmarks(landmarks),
     );
+    let drawn: EmbedResult | null = null;
     store.watch(
         (state) => [state.result, state.preview, state.livePaths, state.step, state.trace],
-        () => targetView.setPaths(pathsOf(store.get())),
+        () => {
+            const state = store.get();
+            const paths = pathsOf(state);
+            const before = drawn;
+            drawn = shownResult(state);
+            if (paths && isReshaped(before, drawn) && !wantsStillness()) targetView.glideTo(paths);
+            else targetView.setPaths(paths);
+        },
     );
     store.watch(
         (state) => [state.highlight, state.selected, state.placing],
@@ -144,6 +154,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
     );
     bannerWhilePlacing(store, actions);
     selectionCard(store, actions);
+    placesOfProblems(store, actions, targetView);
     keysInTarget(store, actions, targetView);
 
     const each = (act: (view: MeshView) => void) => () => views.forEach(act);
@@ -160,6 +171,18 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
     });
     checkbox("show-layout", "layoutShown");
     checkbox("link-cameras", "camerasLinked");
+    const shape = element("shape", HTMLSelectElement);
+    shape.append(...pathShapes.map((name) => new Option(shapeWords[name], name)));
+    shape.addEventListener("change", () => {
+        const chosen = pathShapes.find((name) => name === shape.value);
+        if (chosen) actions.setShape(chosen);
+    });
+    store.watch(
+        (state) => [state.options.shape],
+        (name) => {
+            shape.value = name;
+        },
+    );
     checkbox("orthographic", "orthographic", (on) =>
         views.forEach((view) => view.viewer.setParallel(on)),
     );
@@ -217,6 +240,14 @@ function link(views: readonly MeshView[], store: Store<AppState>): void {
 const shownResult = ({ result, preview, step }: AppState): EmbedResult | null =>
     step === null ? (result ?? preview) : null;
 
+/** Whether one is the other in another shape: the same search made both. */
+const isReshaped = (before: EmbedResult | null, now: EmbedResult | null): boolean =>
+    before?.refined !== now?.refined &&
+    before?.exactCost === now?.exactCost &&
+    before?.counters.work === now?.counters.work;
+
+const wantsStillness = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
 /** What the target's surface is made from: building it anew is dear, so nothing else counts. */
 const surfaceInputs = (state: AppState) =>
     [
@@ -247,6 +278,35 @@ function pathsOf(state: AppState): Polylines | null {
     const { step, trace, livePaths } = state;
     if (step !== null) return trace.incumbents[step]?.paths ?? null;
     return chainsOf(shownResult(state)) ?? livePaths;
+}
+
+/** Shows where problems lie: a refused mesh over the target's view, a landmark in that view. */
+function placesOfProblems(store: Store<AppState>, actions: Actions, target: TargetView): void {
+    const figure = element("place-view", HTMLElement);
+    let view: PlaceView | null = null;
+    element("place-close", HTMLButtonElement).addEventListener("click", () =>
+        actions.showPlace(null),
+    );
+    onThemeChange(store, () => view?.applyTheme());
+    store.watch(
+        (state) => [state.shownPlace],
+        (id) => {
+            const { problems, landmarks } = store.get();
+            const problem = problems.find((one) => one.id === id);
+            const place = problem?.place ?? null;
+            figure.hidden = place?.kind !== "mesh";
+            if (!problem || !place) return;
+            if (place.kind === "landmarks") {
+                const vertex = landmarks?.places[place.ids[0]!] ?? null;
+                actions.select({ kind: "vertex", id: place.ids[0]! });
+                if (vertex !== null) target.focusOn(vertex);
+                return;
+            }
+            setText("place-name", `${place.name}, as it was read`);
+            view ??= new PlaceView(figure, `Place of the problem in 3D. ${keys}`);
+            view.show(place);
+        },
+    );
 }
 
 /** Says which landmark the next click places. */

@@ -11,6 +11,7 @@ import {
     vertexNormals,
 } from "./geometry.js";
 import { MeshView, type ViewHit, type ViewListener } from "./mesh_view.js";
+import { glide, sameEdges } from "./morph.js";
 import { SurfacePicker } from "./surface_picker.js";
 
 /** The target, with landmarks, paths and patches on it. */
@@ -23,6 +24,7 @@ export class TargetView extends MeshView {
     private patches: PatchFinder | null = null;
     /** Where a landmark would go. */
     private readonly ghost = new Dots(-0.15, 0.7);
+    private endGlide = () => {};
 
     constructor(host: HTMLElement, label: string, listener: ViewListener) {
         super(host, label, -0.15, listener);
@@ -83,9 +85,32 @@ export class TargetView extends MeshView {
 
     /** `detours` are drawn in the colour of what is longer than it need be. */
     setPaths(paths: Polylines | null, detours?: ReadonlySet<number>): void {
+        this.endGlide();
         this.shownPaths = paths;
         this.tubes.setPaths(paths, detours);
         this.viewer.requestRender();
+    }
+
+    /** The same paths in another shape, which they glide into. */
+    glideTo(paths: Polylines): void {
+        this.endGlide();
+        const from = this.shownPaths;
+        if (!from || !sameEdges(from, paths)) {
+            this.setPaths(paths);
+            return;
+        }
+        this.shownPaths = paths;
+        this.endGlide = glide(from, paths, (between) => {
+            this.tubes.setPaths(between);
+            this.viewer.requestRender();
+        });
+    }
+
+    /** Brings a target vertex into the middle of the view. */
+    focusOn(vertex: number): void {
+        if (!this.target) return;
+        const at = (from: ArrayLike<number>) => new Vector3().fromArray(from, 3 * vertex);
+        this.viewer.focusOn(at(this.target.positions), 0.4 * this.viewer.radius, at(this.normals));
     }
 
     /** The free vertex at the middle of the view; null where it shows none. */

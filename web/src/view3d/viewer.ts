@@ -93,6 +93,16 @@ export class Viewer {
         this.resetView();
     }
 
+    /** Brings a place into the middle, with what is around it up to a radius. */
+    focusOn(place: Vector3, radius: number, direction: Vector3): void {
+        this.controls.target.copy(place);
+        const tangent = Math.tan(((this.camera.fov / 2) * Math.PI) / 180);
+        // Straight from above or below, which way is up would be open.
+        const side = direction.clone().addScaledVector(startDirection, 0.4).normalize();
+        this.moveTo(side.lengthSq() > 0 ? side : startDirection, (1.2 * radius) / tangent);
+        this.onPoseChange?.();
+    }
+
     /** Shows everything again, from the side it is seen from now. */
     fit(): void {
         this.controls.target.copy(this.center);

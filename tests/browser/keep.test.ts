@@ -1,0 +1,114 @@
+// What outlives a visit: sessions as files, the last work in the browser, links.
+import { unzipSync } from "fflate";
+import { expect, inject, test } from "vitest";
+import { downloaded, drop, ready, solve, solved, untilStatus, usePage } from "./browser.js";
+import { ball, cube, toObj } from "./meshes.js";
+
+const opened = usePage({
+    link: "shape=vase/tulip",
+    permissions: ["clipboard-read", "clipboard-write"],
+});
+
+/** What a person sees of the input. */
+async function input() {
+    const { page } = opened();
+    const text = (id: string) => page.textContent(`#${id}`);
+    return {
+        layout: await text("layout-name"),
+        target: await text("target-name"),
+        landmarks: await text("landmarks-name"),
+        seed: await page.inputValue("#seed"),
+    };
+}
+
+test("the_last_work_is_there_again_after_a_reload", async () => {
+    const { page } = opened();
+    await drop(page, [
+        { name: "cube.obj", text: toObj(cube) },
+        { name: "ball.obj", text: toObj(ball(2)) },
+        { name: "places.txt", text: "0\n1\n2\n3\n4\n5\n6\n7\n" },
+    ]);
+    await untilStatus(page, ready);
+    await page.click("#options summary");
+    await page.fill("#seed", "3");
+    await page.press("#seed", "Enter");
+    await solve(page);
+    const before = await input();
+    const cost = await page.textContent("#cost");
+    // Put away after a moment without changes.
+    await page.waitForFunction(
+        () =>
+            new Promise((resolve) => {
+                const opening = indexedDB.open("layout-embedding", 1);
+                opening.onsuccess = () => {
+                    const database = opening.result;
+                    const work = database.transaction("work").objectStore("work").get("last");
+                    work.onsuccess = () => {
+                        database.close();
+                        resolve(
+                            (work.result as { options?: { seed?: number } } | null)?.options
+                                ?.seed === 3,
+                        );
+                    };
+                };
+            }),
+        null,
+        { polling: 200 },
+    );
+    // Without a link in the address.
+    await page.goto(inject("pageUrl").replace(/\/$/, "/index.html"));
+    await untilStatus(page, ready);
+    expect(await input()).toEqual(before);
+    expect(await page.textContent("#notices")).toContain("last visit");
+    await solve(page);
+    expect(await page.textContent("#cost")).toBe(cost);
+});
+
+test("a_session_is_saved_as_a_file_and_opened_again", async () => {
+    const { page } = opened();
+    const before = await input();
+    const session = await downloaded(page, () => page.click("#save-session"));
+    expect(Object.keys(unzipSync(session)).sort()).toEqual([
+        "layout.obj",
+        "session.json",
+        "target.obj",
+    ]);
+    await page.fill("#seed", "9");
+    await drop(page, [{ name: "other.obj", text: toObj(ball(3)) }]);
+    await page.waitForFunction(
+        () => document.getElementById("target-name")?.textContent === "other.obj",
+    );
+    await page.setInputFiles("#any-file", {
+        name: "session.zip",
+        mimeType: "application/zip",
+        buffer: session,
+    });
+    await page.waitForFunction(
+        () => document.getElementById("target-name")?.textContent === "ball.obj",
+    );
+    await untilStatus(page, ready);
+    expect(await input()).toEqual(before);
+    // What is no session says so.
+    await page.setInputFiles("#any-file", {
+        name: "broken.zip",
+        mimeType: "application/zip",
+        buffer: Buffer.from("no zip"),
+    });
+    await page.locator(".problem .cause", { hasText: "broken.zip" }).waitFor();
+    await page.getByRole("button", { name: /^Dismiss/ }).click();
+    expect(await input()).toEqual(before);
+});
+
+test("a_link_opens_a_shape_with_its_settings", async () => {
+    const { page } = opened();
+    await page.goto("about:blank");
+    await page.goto(`${inject("pageUrl")}#shape=vase/tulip&seed=7&gap=0.05`);
+    await untilStatus(page, solved);
+    expect(await page.textContent("#target-name")).toBe("tulip.obj");
+    expect(await page.inputValue("#seed")).toBe("7");
+    expect(await page.inputValue("#gap")).toBe("5");
+    await page.click("#copy-link");
+    await page.locator("#notices li", { hasText: "clipboard" }).waitFor();
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    expect(copied).toBe(`${inject("pageUrl")}#shape=vase/tulip&seed=7&gap=0.05`);
+});
