@@ -164,7 +164,7 @@ export async function findInTarget(
     for (const { dx, dy } of steps) {
         const at = { x: middle.x + 9 * dx, y: middle.y + 9 * dy };
         await page.mouse.move(at.x, at.y);
-        await frames(page, 2);
+        await frames(page, 1);
         const said = (await page.textContent("#target-hover")) ?? "";
         if (pattern.test(said)) return { ...at, said };
     }

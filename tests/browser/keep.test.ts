@@ -36,25 +36,23 @@ test("the_last_work_is_there_again_after_a_reload", async () => {
     const before = await input();
     const cost = await page.textContent("#cost");
     // Put away after a moment without changes.
-    await page.waitForFunction(
-        () =>
-            new Promise((resolve) => {
-                const opening = indexedDB.open("layout-embedding", 1);
-                opening.onsuccess = () => {
-                    const database = opening.result;
-                    const work = database.transaction("work").objectStore("work").get("last");
-                    work.onsuccess = () => {
-                        database.close();
-                        resolve(
-                            (work.result as { options?: { seed?: number } } | null)?.options
-                                ?.seed === 3,
-                        );
+    const keptSeed = () =>
+        page.evaluate(
+            () =>
+                new Promise((resolve) => {
+                    const opening = indexedDB.open("layout-embedding", 1);
+                    opening.onsuccess = () => {
+                        const database = opening.result;
+                        const work = database.transaction("work").objectStore("work").get("last");
+                        work.onsuccess = () => {
+                            database.close();
+                            const kept = work.result as { options?: { seed?: number } } | null;
+                            resolve(kept?.options?.seed ?? null);
+                        };
                     };
-                };
-            }),
-        null,
-        { polling: 200 },
-    );
+                }),
+        );
+    await expect.poll(keptSeed, { timeout: 30_000, interval: 200 }).toBe(3);
     // Without a link in the address.
     await page.goto(inject("pageUrl").replace(/\/$/, "/index.html"));
     await untilStatus(page, ready);
@@ -73,6 +71,7 @@ test("a_session_is_saved_as_a_file_and_opened_again", async () => {
         "session.json",
         "target.obj",
     ]);
+    await page.click("#options summary");
     await page.fill("#seed", "9");
     await drop(page, [{ name: "other.obj", text: toObj(ball(3)) }]);
     await page.waitForFunction(

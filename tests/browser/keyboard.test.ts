@@ -26,7 +26,7 @@ test("every_control_is_reached_by_tab_and_shows_its_focus", async () => {
             const reached: (readonly [stop: number, visible: boolean])[] = [];
             Object.assign(globalThis, { reached });
             document.addEventListener("focusin", ({ target }) => {
-                const stop = stops.indexOf(target as Element);
+                const stop = stops.indexOf(target as HTMLElement);
                 // A file input shows its focus on the label around it.
                 const shown = (target as Element).closest("label.file") ?? (target as Element);
                 const { outlineStyle, outlineWidth } = getComputedStyle(shown);
@@ -54,7 +54,7 @@ test("a_shape_is_chosen_solved_and_taken_home_with_the_keyboard_alone", async ()
     const { page } = opened();
     const before = await page.textContent("#target-name");
     await page.keyboard.press("g");
-    const card = page.locator("#gallery-cards button", { hasText: "Tulip" });
+    const card = page.locator("#gallery-cards button", { hasText: "Amphora" });
     await card.waitFor();
     for (let press = 0; press < 60; ++press) {
         if (await card.evaluate((one) => one === document.activeElement)) break;

@@ -45,7 +45,7 @@ export function batchPanel(
             const entries = batch?.entries ?? [];
             element("batch-result", HTMLElement).hidden = !batch;
             cancel.disabled = !batch?.running;
-            save.disabled = !entries.some(({ figures }) => figures?.length != null);
+            save.disabled = !entries.some(({ figures }) => typeof figures?.length === "number");
             setText("batch-note", batch?.note ?? "");
             const over = entries.filter(({ state }) => state === "done" || state === "failed");
             setText(
