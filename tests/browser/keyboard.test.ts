@@ -63,8 +63,17 @@ test("a_shape_is_chosen_solved_and_taken_home_with_the_keyboard_alone", async ()
     await page.keyboard.press("Enter");
     await untilSolvedAfter(page, before);
     const cost = await page.textContent("#cost");
+    // A quick solve shows no cost for less than a frame: its end alone would not tell it from none.
+    const hadNoCost = await page.evaluateHandle(() => {
+        const element = document.getElementById("cost")!;
+        const seen = { empty: false };
+        new MutationObserver(() => {
+            seen.empty ||= element.textContent === "–";
+        }).observe(element, { childList: true, characterData: true, subtree: true });
+        return seen;
+    });
     await page.keyboard.press("s");
-    await page.waitForFunction(() => document.getElementById("cost")?.textContent === "–");
+    await page.waitForFunction((seen) => seen.empty, hadNoCost);
     await untilSolved(page);
     expect(await page.textContent("#cost")).toBe(cost);
 
