@@ -197,8 +197,9 @@ void ExactSolver::look_into(bool is_optimal)
     if (is_optimal || (space_.incumbent.exists() && cost_ - bound <= (incumbent - bound) / 2)) {
         ++counters_.states_expanded;
         has_explored_ = false;
-        // Without an incumbent nothing says how far to explore: first of all, an embedding.
-        stage_ = space_.incumbent.exists() ? Stage::explore : Stage::examine;
+        // Without an incumbent nothing says how far to explore: first of all, an embedding. Where
+        // holes are in the way it takes classes that lead around them.
+        stage_ = space_.incumbent.exists() || has_holes_ ? Stage::explore : Stage::examine;
     }
 }
 
