@@ -22,7 +22,7 @@ namespace layout_embedding::shapes {
 namespace {
 
 /// Few, so that all members together take seconds.
-constexpr Index kVertices = 900;
+constexpr Index kVertices = 1200;
 
 /// A class with all of its members.
 struct Collection {
