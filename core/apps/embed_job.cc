@@ -605,12 +605,7 @@ Polylines EmbedJob::paths() const
         if (darts == nullptr || darts->empty()) {
             continue;
         }
-        lines.points.push_back(graph.position(graph.tail(darts->front())));
-        for (const Index dart : *darts) {
-            lines.points.push_back(graph.position(graph.head(dart)));
-        }
-        lines.offsets.push_back(static_cast<Index>(lines.points.size()));
-        lines.layout_edges.push_back(e);
+        lines.add(graph, e, *darts);
     }
     return lines;
 }

@@ -15,6 +15,7 @@
 #include "layout/embedding_problem.hh"
 #include "search/solver.hh"
 #include "surface/path_graph.hh"
+#include "surface/polylines.hh"
 #include "surface/weak_embedding.hh"
 
 namespace layout_embedding {
@@ -97,15 +98,6 @@ struct EmbedEvent {
     double lower_bound = 0;
     /// Share of the phase that is done, in [0, 1].
     double progress = 0;
-};
-
-/// Paths as polylines, ready to draw.
-struct Polylines {
-    /// Per path: its first place in `points`; #paths + 1.
-    std::vector<Index> offsets{0};
-    std::vector<Vec3> points;
-    /// Per path: the layout edge.
-    std::vector<Index> layout_edges;
 };
 
 /// Machine-independent counts, of all attempts together.

@@ -65,6 +65,50 @@ test("can_solve_and_export_again_in_one_session", async () => {
     await expect(session.solve()).rejects.toMatchObject({ code: "disposed" });
 });
 
+test("shows_candidate_paths_and_has_an_embedding_follow_a_dragged_landmark", async () => {
+    const session = await worker.createSession();
+    await session.loadLayout(problem.layout);
+    const target = await session.loadTarget(problem.target);
+    const { landmarks } = await session.setLandmarks(problem.landmarks);
+    await expect(session.candidatePaths()).rejects.toMatchObject({ code: "nothingToExport" });
+    await expect(session.dragLandmark(0, 1)).rejects.toMatchObject({ code: "nothingToExport" });
+    const best = await session.solve({ gap: 0 });
+
+    const { lengths, paths, pairs, triples } = await session.candidatePaths();
+    expect([...paths.layoutEdges]).toEqual(best.edges.map(({ id }) => id));
+    for (const { id, cost } of best.edges) expect(lengths[id]).toBeLessThanOrEqual(cost + 1e-12);
+    const sum = lengths.reduce((total, length) => total + length, 0);
+    // Without a conflict they are the embedding.
+    expect(sum < best.cost - 1e-9).toBe(pairs.length + triples.length > 0);
+
+    // To the far corner of a triangle at the landmark.
+    const taken = new Set(landmarks);
+    const corner = target.corners.indexOf(landmarks[0]!);
+    const near = [1, 2].map(
+        (step) => target.corners[corner - (corner % 3) + ((corner + step) % 3)]!,
+    );
+    const place = near.find((vertex) => !taken.has(vertex))!;
+    const dragged = await session.dragLandmark(0, place);
+    if (!dragged) throw new Error("no embedding follows");
+    expect([...dragged.paths.layoutEdges]).toEqual(best.edges.map(({ id }) => id));
+    const at = target.positions.slice(3 * place, 3 * place + 3);
+    for (const { id, layoutEdge } of best.edges) {
+        const [first, after] = dragged.paths.offsets.subarray(id, id + 2);
+        if (layoutEdge[0] === 0)
+            expect(dragged.paths.points.slice(3 * first!, 3 * first! + 3)).toEqual(at);
+        if (layoutEdge[1] === 0)
+            expect(dragged.paths.points.slice(3 * after! - 3, 3 * after!)).toEqual(at);
+    }
+    expect(await session.dragLandmark(0, landmarks[1]!)).toBeNull();
+    // The last embedding is still there; the one that was dragged is no better than the best.
+    expect((await session.exportFiles())["refined.obj"].length).toBeGreaterThan(0);
+    await session.setLandmarks([place, ...landmarks.subarray(1)]);
+    const anew = await session.solve({ gap: 0 });
+    expect(dragged.cost).toBeGreaterThanOrEqual(anew.lowerBound - 1e-9);
+    expect(dragged.cost).toBeLessThan(1.1 * anew.cost);
+    await session.dispose();
+});
+
 test("hands_on_errors_with_code_and_details", async () => {
     const session = await worker.createSession();
     await session.loadLayout(problem.layout);

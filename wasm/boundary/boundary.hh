@@ -21,6 +21,7 @@
 #include "layout/layout.hh"
 #include "mesh/polygon_mesh.hh"
 #include "mesh/triangle_mesh.hh"
+#include "surface/polylines.hh"
 
 /// The C boundary of the library in WebAssembly, called by src/core.ts alone.
 ///
@@ -117,6 +118,9 @@ T& HandleTable<T>::get(std::uint32_t handle)
     }
     return *found->second;
 }
+
+/// The paths to draw that were made last: see paths.cc.
+Polylines& drawn_paths();
 
 /// Makes `error` the last one.
 void set_error(Error error);

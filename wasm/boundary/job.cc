@@ -246,35 +246,11 @@ std::uint32_t boundary_job_insertion_order(std::uint32_t job)
     });
 }
 
-/// The paths to draw, in three views: points (3 doubles each), the first point of each path, and
-/// the layout edge of each path.
-BOUNDARY_EXPORT(boundary_job_path_points) std::uint32_t boundary_job_path_points(std::uint32_t job)
+/// The job's paths are to be drawn (paths.cc).
+BOUNDARY_EXPORT(boundary_job_paths) std::uint32_t boundary_job_paths(std::uint32_t job)
 {
     return guarded(0U, [&] {
-        const Polylines paths = job_object(job).job.paths();
-        std::vector<double> coordinates;
-        coordinates.reserve(3 * paths.points.size());
-        for (const Vec3& point : paths.points) {
-            coordinates.insert(coordinates.end(), {point.x(), point.y(), point.z()});
-        }
-        set_owned_view(coordinates);
-        return 1U;
-    });
-}
-
-BOUNDARY_EXPORT(boundary_job_path_offsets)
-std::uint32_t boundary_job_path_offsets(std::uint32_t job)
-{
-    return guarded(0U, [&] {
-        set_owned_view(job_object(job).job.paths().offsets);
-        return 1U;
-    });
-}
-
-BOUNDARY_EXPORT(boundary_job_path_edges) std::uint32_t boundary_job_path_edges(std::uint32_t job)
-{
-    return guarded(0U, [&] {
-        set_owned_view(job_object(job).job.paths().layout_edges);
+        drawn_paths() = job_object(job).job.paths();
         return 1U;
     });
 }

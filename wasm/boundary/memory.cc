@@ -1,6 +1,7 @@
 // Memory, errors, views and the version: what every other function of the boundary rests on.
 #include <cstdlib>
 
+#include "apps/landmark_drag.hh"
 #include "apps/quad_mesh.hh"
 #include "boundary/boundary.hh"
 #include "formats/reference_files.hh"
@@ -92,7 +93,8 @@ BOUNDARY_EXPORT(boundary_destroy) void boundary_destroy(std::uint32_t handle)
     handles<MeshObject>().destroy(handle) || handles<LayoutObject>().destroy(handle) ||
         handles<TargetObject>().destroy(handle) || handles<LandmarksObject>().destroy(handle) ||
         handles<JobObject>().destroy(handle) || handles<CheckObject>().destroy(handle) ||
-        handles<ReferenceInput>().destroy(handle) || handles<QuadMesh>().destroy(handle);
+        handles<ReferenceInput>().destroy(handle) || handles<QuadMesh>().destroy(handle) ||
+        handles<LandmarkDrag>().destroy(handle);
 }
 
 /// Views the name of the last error's code.

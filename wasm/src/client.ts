@@ -5,6 +5,8 @@ import { javaScriptError, LayoutError } from "./errors.js";
 import type { Reply, Request, SessionMethod } from "./protocol.js";
 import { embedIn, templateIn } from "./sugar.js";
 import type {
+    CandidatePaths,
+    DraggedPaths,
     EmbeddingClaim,
     EmbeddingSession,
     EmbedOptions,
@@ -277,6 +279,17 @@ class WorkerSession implements EmbeddingSession {
 
     qualityReport(): Promise<QualityReport> {
         return this.call("qualityReport", []) as Promise<QualityReport>;
+    }
+
+    candidatePaths(): Promise<CandidatePaths> {
+        return this.call("candidatePaths", []) as Promise<CandidatePaths>;
+    }
+
+    dragLandmark(layoutVertex: number, targetVertex: number): Promise<DraggedPaths | null> {
+        return this.call("dragLandmark", [
+            layoutVertex,
+            targetVertex,
+        ]) as Promise<DraggedPaths | null>;
     }
 
     check(claim: EmbeddingClaim): Promise<Violation[]> {

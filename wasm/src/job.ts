@@ -1,6 +1,7 @@
 // Runs one job of the core in slices that let other events be handled in between, and reads what
 // it made.
 import type { Core, Handle } from "./core.js";
+import { drawnPaths } from "./drawn_paths.js";
 import { javaScriptError, LayoutError } from "./errors.js";
 import type {
     Algorithm,
@@ -290,12 +291,8 @@ function readEvents(core: Core, job: Handle, first: number): EmbedEvent[] {
 }
 
 function readPaths(core: Core, job: Handle): Polylines {
-    core.call("boundary_job_path_offsets", job);
-    const offsets = core.viewedIds();
-    core.call("boundary_job_path_points", job);
-    const points = core.viewedDoubles();
-    core.call("boundary_job_path_edges", job);
-    return { offsets, points, layoutEdges: core.viewedIds() };
+    core.call("boundary_job_paths", job);
+    return drawnPaths(core);
 }
 
 function readRefined(core: Core, job: Handle): RefinedMesh | null {

@@ -1,6 +1,8 @@
 // The core of the interface: a layout, a target, landmarks, and what is solved with them, in an
 // instance of the WebAssembly module of its own. Disposing of the session frees all its memory.
+import { candidatePaths } from "./candidates.js";
 import { Core, type Handle } from "./core.js";
+import { LandmarkDrag } from "./drag.js";
 import { javaScriptError, LayoutError } from "./errors.js";
 import { checkClaim } from "./claim.js";
 import {
@@ -17,6 +19,8 @@ import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.
 import { makeQuads } from "./quads.js";
 import { qualityReport } from "./quality.js";
 import type {
+    CandidatePaths,
+    DraggedPaths,
     EmbeddingClaim,
     EmbeddingSession,
     EmbedResult,
@@ -69,6 +73,8 @@ export class Session implements EmbeddingSession {
     private target: Loaded | null = null;
     private landmarks: (LandmarksInfo & { record: InputRecord }) | null = null;
     private solved: Solved | null = null;
+    /** Of a landmark of the last embedding. */
+    private drag: LandmarkDrag | null = null;
     private disposed = false;
 
     private constructor(private readonly core: Core) {}
@@ -207,6 +213,7 @@ export class Session implements EmbeddingSession {
         try {
             await runJob(core, job, options, () => !this.disposed);
             const result = readResult(core, job, layoutEdges, solved.landmarks);
+            this.endDrag();
             core.destroy(this.solved?.job ?? null);
             this.solved = solved;
             return result;
@@ -225,6 +232,7 @@ export class Session implements EmbeddingSession {
             throw javaScriptError("nothingToReshape", "no embedding was found in this session");
         }
         // Until it is done there is nothing to export.
+        this.endDrag();
         this.solved = null;
         solved.options = checked;
         try {
@@ -266,6 +274,19 @@ export class Session implements EmbeddingSession {
         return Promise.resolve(qualityReport(this.core, job, edges));
     }
 
+    async candidatePaths(): Promise<CandidatePaths> {
+        return Promise.resolve(candidatePaths(this.core, this.embeddedJob()));
+    }
+
+    async dragLandmark(layoutVertex: number, targetVertex: number): Promise<DraggedPaths | null> {
+        const job = this.embeddedJob();
+        if (this.drag?.landmark !== layoutVertex) {
+            this.endDrag();
+            this.drag = new LandmarkDrag(this.core, job, layoutVertex);
+        }
+        return Promise.resolve(this.drag.moveTo(targetVertex));
+    }
+
     /** What embedding.json says of the last solve(), also where no embedding was found. */
     embeddingDocument(): EmbeddingDocument {
         return embeddingDocument(this.exportable());
@@ -291,11 +312,17 @@ export class Session implements EmbeddingSession {
     async dispose(): Promise<void> {
         if (!this.disposed) {
             this.disposed = true;
+            this.endDrag();
             this.core.destroy(this.solved?.job ?? null);
             this.forget(this.layout);
             this.forget(this.target);
         }
         return Promise.resolve();
+    }
+
+    private endDrag(): void {
+        this.drag?.end();
+        this.drag = null;
     }
 
     /** The job of the last solve(), if it has an embedding. */

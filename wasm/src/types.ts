@@ -441,6 +441,30 @@ export interface QuadMesh {
     obj: Uint8Array;
 }
 
+/**
+ * The path that each layout edge would take if it were alone, and what keeps these candidate paths
+ * from being embedded together. No embedding is shorter than all of them together, and without a
+ * conflict they are one.
+ */
+export interface CandidatePaths {
+    /** One per layout edge that has a path past the other landmarks. */
+    paths: Polylines;
+    /** Per layout edge: the length in the path-graph metric, Infinity without a path. */
+    lengths: Float64Array;
+    /** Two layout edges each whose candidates cross (or leave a landmark on the rim out of order). */
+    pairs: Uint32Array;
+    /** Three layout edges each whose candidates leave a common landmark in the wrong cyclic order. */
+    triples: Uint32Array;
+}
+
+/** The paths of an embedding that follows a dragged landmark: an embedding, but not a proved one. */
+export interface DraggedPaths {
+    /** In the path-graph metric. */
+    cost: number;
+    /** One per layout edge, pulled straight for the eye. */
+    paths: Polylines;
+}
+
 /** How good the paths and patches of an embedding are, in the target's units. */
 export interface QualityReport {
     /** Per layout edge. */
@@ -561,6 +585,19 @@ export interface EmbeddingSession {
     quads(options?: QuadOptions): Promise<QuadMesh>;
     /** How good the last embedding is. */
     qualityReport(): Promise<QualityReport>;
+    /**
+     * The candidate paths of the last problem that solve() found an embedding for, with their
+     * conflicts: why an embedding is longer than the shortest paths.
+     */
+    candidatePaths(): Promise<CandidatePaths>;
+    /**
+     * For a landmark that is dragged: moves that of one layout vertex to a vertex of the target (after
+     * a repair), and only the paths that have to follow are searched. Begins at the last embedding
+     * that solve() returned; moves of the same landmark build on each other. The session's
+     * landmarks and last embedding stay as they are. Null where no embedding follows: the landmark
+     * stays where it was.
+     */
+    dragLandmark(layoutVertex: number, targetVertex: number): Promise<DraggedPaths | null>;
     /** What is wrong with a claimed embedding; empty if it is valid. */
     check(claim: EmbeddingClaim): Promise<Violation[]>;
     /** Frees everything; the session cannot be used any more. */
