@@ -3,7 +3,15 @@ import { Session, type EmbeddingDocument } from "layout-embedding";
 import { unzipSync } from "fflate";
 import { expect, inject, test } from "vitest";
 import { examples } from "../../web/src/examples/index.js";
-import { choose, colorsOf, downloaded, frames, untilSolvedAfter, usePage } from "./browser.js";
+import {
+    choose,
+    colorsOf,
+    downloaded,
+    frames,
+    numberIn,
+    untilSolvedAfter,
+    usePage,
+} from "./browser.js";
 
 const opened = usePage();
 
@@ -98,6 +106,8 @@ test("the_picture_that_is_taken_home_shows_the_target", async () => {
     expect(png.subarray(1, 4).toString()).toBe("PNG");
     // A blank picture of this size compresses to a few kilobytes.
     expect(png.length).toBeGreaterThan(15_000);
+    const glb = await downloaded(page, () => page.click('button[data-format="glb"]'));
+    expect(glb.subarray(0, 4).toString()).toBe("glTF");
 });
 
 test("paths_get_another_shape_without_a_new_search", async () => {
@@ -189,6 +199,31 @@ test("the_heuristics_are_put_beside_the_result", async () => {
     expect(await page.textContent("#compare-title")).toBe(otherName);
     await page.click("#compare-close");
     expect(await page.isVisible("#layout-view")).toBe(true);
+});
+
+test("candidate_paths_show_which_edges_are_in_each_others_way", async () => {
+    const { page } = opened();
+    const button = page.locator("#candidates");
+    const picture = () => page.locator("#target-view canvas").screenshot();
+    await frames(page);
+    const embedding = await picture();
+    await page.keyboard.press("a");
+    await page.waitForFunction(() => document.getElementById("candidates-text")?.textContent);
+    expect(await button.getAttribute("aria-pressed")).toBe("true");
+    const words = (await page.textContent("#candidates-text")) ?? "";
+    const [, sum, less] = /: ([\d.,]+) in all, ([\d.]+) % less/.exec(words) ?? [];
+    const cost = await numberIn(page, "#cost");
+    const alone = Number(sum?.replace(",", ""));
+    // The octopus's arms make some paths conflict: the embedding is longer than they are.
+    expect(alone).toBeLessThan(cost);
+    expect(Number(less)).toBeCloseTo((100 * (cost - alone)) / cost, 1);
+    expect(words).toMatch(/\d+ paths?, in red/);
+    await frames(page);
+    expect((await picture()).equals(embedding)).toBe(false);
+    await button.click();
+    expect(await button.getAttribute("aria-pressed")).toBe("false");
+    await frames(page);
+    expect((await picture()).equals(embedding)).toBe(true);
 });
 
 test("the_content_security_policy_stops_requests_to_other_places", async () => {

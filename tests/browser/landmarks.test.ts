@@ -115,6 +115,8 @@ test("an_embedding_follows_a_dragged_landmark_and_is_proved_when_the_hand_rests"
         cost,
     );
     expect(await page.textContent("#embedded")).toBe("12 of 12");
+    // The embedding that there was follows, without a search of its own.
+    expect(await page.textContent("#lower-bound")).toBe("–");
     expect(await vertexOf(id)).not.toBe(vertex);
     await page.mouse.up();
     await untilSolved(page);

@@ -4,6 +4,7 @@ import { Engine } from "./model/engine.js";
 import { initialState } from "./model/state.js";
 import { createStore } from "./model/store.js";
 import { batchPanel } from "./panels/batch.js";
+import { candidatesPanel } from "./panels/candidates.js";
 import { comparePanel } from "./panels/compare.js";
 import { doubtsPanel } from "./panels/doubts.js";
 import { downloadsPanel } from "./panels/downloads.js";
@@ -41,6 +42,7 @@ solvePanel(store, actions);
 doubtsPanel(store, actions);
 plotPanel(store, actions);
 resultPanel(store, actions);
+candidatesPanel(store, actions);
 comparePanel(store, actions);
 
 // Without WebGL everything but the pictures still works.
@@ -80,6 +82,11 @@ shortcuts([
     { key: "Ctrl+Z", does: "Undo", act: () => actions.landmarks.undo() },
     { key: "Ctrl+Shift+Z", does: "Redo", act: () => actions.landmarks.redo() },
     { key: "c", does: "Compare with the heuristics", act: () => void actions.compare() },
+    {
+        key: "a",
+        does: "Paths of edges alone, with their conflicts",
+        act: () => void actions.toggleCandidates(),
+    },
     { key: "d", does: "Download the three result files", act: downloadAll },
     { key: "f", does: "Fit the view", act: () => views?.fit() },
     { key: "r", does: "Reset the view", act: () => views?.reset() },

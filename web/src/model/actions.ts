@@ -1,6 +1,7 @@
 import type {
     Algorithm,
     EmbedProgress,
+    ExportFormat,
     LandmarkDoubt,
     LayoutInfo,
     MeshArrays,
@@ -47,6 +48,8 @@ export interface SavedWork {
     readonly repair: boolean;
     readonly options: AppState["options"];
     readonly origin: Origin | null;
+    /** Whether there was an embedding: then it is looked for again. */
+    readonly solved: boolean;
 }
 
 /** Errors that reading again with repair may get rid of. */
@@ -93,7 +96,7 @@ export class Actions {
         private readonly engine: Engine,
     ) {
         this.landmarks = new LandmarkEditor(store, {
-            dragged: () => void this.preview(),
+            dragged: (id) => void this.preview(id),
             edited: (wasSolved) => this.afterEdit(wasSolved),
         });
         this.batch = new Batch(engine, (entries, running) => {
@@ -163,7 +166,7 @@ export class Actions {
         return this.enqueue(() => this.readLandmarks(file));
     }
 
-    /** Work that was put away: everything as it was, but unsolved. */
+    /** Work that was put away: everything as it was; what was solved is solved again. */
     restore(saved: SavedWork): Promise<void> {
         return this.enqueue(async () => {
             this.startAnew(saved.origin);
@@ -177,14 +180,16 @@ export class Actions {
             if (saved.layout && !(await this.load("layout", saved.layout))) return;
             if (saved.landmarks) this.store.update({ landmarks: saved.landmarks });
             if (saved.making) await this.rebuildLayout();
+            else if (saved.solved) await this.runSolve();
         });
     }
 
     /** What restore() needs to bring everything back. */
     saved(): SavedWork {
-        const { landmarks, making, quads, repair, options, origin } = this.store.get();
+        const { landmarks, making, quads, repair, options, origin, result } = this.store.get();
         const { layout = null, target = null } = this.sources;
-        return { layout, target, landmarks, making, quads, repair, options, origin };
+        const solved = result !== null;
+        return { layout, target, landmarks, making, quads, repair, options, origin, solved };
     }
 
     /** Another target for the layout there is, solved. */
@@ -287,6 +292,7 @@ export class Actions {
 
     /** Runs the heuristics on the same problem and shows the worst of them beside the result. */
     compare(): Promise<void> {
+        if (this.store.get().activity) return Promise.resolve();
         return this.enqueue(async () => {
             const { landmarks, layout, options } = this.store.get();
             const ids = landmarks && completeIds(landmarks);
@@ -309,6 +315,26 @@ export class Actions {
         });
     }
 
+    /** Draws the paths that the edges would take alone, or the embedding's again. */
+    toggleCandidates(): Promise<void> {
+        if (this.store.get().activity) return Promise.resolve();
+        return this.enqueue(async () => {
+            const { candidates, result } = this.store.get();
+            if (!result?.refined) return;
+            if (candidates) {
+                this.store.update({
+                    candidates: { ...candidates, shown: !candidates.shown },
+                    step: null,
+                });
+                return;
+            }
+            const found = await this.attempt("Looking for the paths of edges alone", () =>
+                this.engine.candidatePaths(),
+            );
+            if (found) this.store.update({ candidates: { found, shown: true }, step: null });
+        });
+    }
+
     /** Shows one of the compared embeddings beside the result; null for the layout. */
     showContender(shown: number | null): void {
         const { comparison } = this.store.get();
@@ -317,13 +343,16 @@ export class Actions {
 
     /** Shows an improvement of the last solve by its place; null for the result. */
     showStep(step: number | null): void {
-        this.store.update({ step });
+        const { candidates } = this.store.get();
+        this.store.update({ step, candidates: candidates && { ...candidates, shown: false } });
     }
 
     /** The result in the formats of other programs, by file name; empty if there is none. */
-    async exportFormats(): Promise<Readonly<Record<string, Uint8Array>>> {
+    async exportFormats(
+        formats: readonly ExportFormat[],
+    ): Promise<Readonly<Record<string, Uint8Array>>> {
         try {
-            return await this.engine.exportAs(["ply", "vtp", "glb", "svg"]);
+            return await this.engine.exportAs(formats);
         } catch (error) {
             this.report(error);
             return {};
@@ -522,10 +551,21 @@ export class Actions {
     }
 
     private async proximity(): Promise<void> {
-        await this.attempt("Placing landmarks by proximity", async () => {
-            const { landmarks, notes } = await this.engine.landmarksByProximity();
-            this.replaceLandmarks(landmarks, "by proximity", notes);
-        });
+        await this.attempt(
+            "Placing landmarks by proximity",
+            async () => {
+                const { landmarks, notes } = await this.engine.landmarksByProximity();
+                this.replaceLandmarks(landmarks, "by proximity", notes);
+            },
+            (error) => this.report(error, { remedy: this.newLayoutRemedy(error) }),
+        );
+    }
+
+    /** For a target that the layout does not fit: a layout of its own. */
+    private newLayoutRemedy(error: unknown): Problem["remedy"] {
+        const code = error instanceof Error && "code" in error ? error.code : null;
+        if (code !== "topologyMismatch") return null;
+        return { label: "Make a layout for it", apply: () => void this.setMaking(true) };
     }
 
     private async readLandmarks(file: File): Promise<void> {
@@ -633,26 +673,25 @@ export class Actions {
         return this.load("layout", { positions, corners, offsets, name });
     }
 
-    /** A quick embedding for the landmarks as they are; skipped while one is being made. */
-    private async preview(): Promise<void> {
+    /**
+     * A quick embedding for a landmark that moves; skipped while one is being made. What the engine
+     * has solved follows where it can; otherwise a heuristic makes one anew.
+     */
+    private async preview(id: number): Promise<void> {
         if (this.previewing || !this.store.get().live || this.store.get().making) return;
         this.cancel();
         this.previewing = true;
         try {
             for (;;) {
-                const { landmarks, options } = this.store.get();
+                const { landmarks } = this.store.get();
                 const ids = landmarks && completeIds(landmarks);
                 if (!ids) return;
-                const preview = await this.engine.solveBeside(ids, {
-                    algorithm: "greedy",
-                    timeLimit: previewSeconds,
-                    seed: options.seed,
-                    shape: options.shape,
-                });
+                const follow = await this.engine.follow(id, ids);
+                const quick = follow ? { follow } : await this.greedyBeside(ids);
                 const now = this.store.get();
                 // The hand may have gone on, or come to rest and been overtaken by the full solve.
                 if (now.result || now.activity) return;
-                this.store.update({ preview });
+                this.store.update(quick);
                 if (now.landmarks === landmarks) return;
             }
         } catch {
@@ -660,6 +699,17 @@ export class Actions {
         } finally {
             this.previewing = false;
         }
+    }
+
+    private async greedyBeside(ids: Uint32Array): Promise<Pick<AppState, "preview" | "follow">> {
+        const { seed, shape } = this.store.get().options;
+        const preview = await this.engine.solveBeside(ids, {
+            algorithm: "greedy",
+            timeLimit: previewSeconds,
+            seed,
+            shape,
+        });
+        return { preview, follow: null };
     }
 
     private async runSolve(): Promise<void> {
@@ -672,6 +722,7 @@ export class Actions {
             ...unsolved,
             activity: activity("solving", phaseWords.prepare),
             preview: this.store.get().preview,
+            follow: this.store.get().follow,
             problems: [],
             shownPlace: null,
         });
@@ -708,7 +759,12 @@ export class Actions {
             // Landmarks that were edited meanwhile belong to another problem.
             const now = this.store.get().landmarks;
             if (now && sameIds(completeIds(now), ids))
-                this.store.update({ result, trace: recorder.finished(result), preview: null });
+                this.store.update({
+                    result,
+                    trace: recorder.finished(result),
+                    preview: null,
+                    follow: null,
+                });
         } catch (error) {
             this.report(error);
         } finally {
@@ -736,7 +792,7 @@ export class Actions {
                 lowerBound,
             },
             trace: recorder.snapshot(seconds),
-            ...(paths ? { livePaths: paths, preview: null } : {}),
+            ...(paths ? { livePaths: paths, preview: null, follow: null } : {}),
         });
     }
 }

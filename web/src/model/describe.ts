@@ -1,4 +1,12 @@
-import type { Algorithm, EmbedPhase, EmbedResult, EmbedStatus, PathShape } from "layout-embedding";
+import type {
+    Algorithm,
+    CandidatePaths,
+    EmbedPhase,
+    EmbedResult,
+    EmbedStatus,
+    PathShape,
+} from "layout-embedding";
+import { conflictsOf, edgesInConflict } from "./candidates.js";
 
 const numbers = new Intl.NumberFormat("en", { maximumSignificantDigits: 6 });
 const counts = new Intl.NumberFormat("en");
@@ -64,6 +72,21 @@ export function meaning(result: EmbedResult): string {
     if (!Number.isFinite(result.cost)) return `${claim}.`;
     if (result.gap === 0) return `${claim}: this one cannot be improved.`;
     return `${claim}; this one is at most ${formatGap(result.gap)} of its length away from that.`;
+}
+
+/** What the candidate paths tell about an embedding. */
+export function candidateWords(candidates: CandidatePaths, { cost }: EmbedResult): string {
+    const sum = candidates.lengths.reduce((total, length) => total + length, 0);
+    const conflicts = conflictsOf(candidates).length;
+    if (conflicts === 0)
+        return "Every edge takes the path here that it would take alone: none is in another's way.";
+    const edges = edgesInConflict(candidates).size;
+    return (
+        `Each edge drawn as if it were alone: ${formatLength(sum)} in all, ` +
+        `${formatGap((cost - sum) / cost)} less than the embedding. ` +
+        `${formatCount(edges, "path")}, in red, cross or leave a landmark in the wrong order ` +
+        `(${formatCount(conflicts, "conflict")}): they cannot all stay. Choose one to see which are in its way.`
+    );
 }
 
 export const shapeWords: Record<PathShape, string> = {

@@ -1,4 +1,6 @@
 import type {
+    CandidatePaths,
+    DraggedPaths,
     EmbeddingSession,
     EmbedResult,
     ExportedFiles,
@@ -49,13 +51,15 @@ export class Engine {
     private target: [MeshInput, LoadOptions] | null = null;
     /** As loaded, after any repair. */
     private landmarks: Uint32Array | null = null;
+    /** Those of the embedding that the main session has; null while it has none. */
+    private solvedFor: Uint32Array | null = null;
 
     constructor(private readonly start: () => Promise<Worker>) {}
 
     async loadLayout(input: MeshInput, options: LoadOptions): Promise<LayoutInfo> {
         const info = await this.use(({ main }) => main.loadLayout(input, options));
         this.layout = [input, options];
-        this.landmarks = null;
+        this.landmarks = this.solvedFor = null;
         await this.endSide();
         return info;
     }
@@ -63,7 +67,7 @@ export class Engine {
     async loadTarget(input: MeshInput, options: LoadOptions): Promise<TargetInfo> {
         const info = await this.use(({ main }) => main.loadTarget(input, options));
         this.target = [input, options];
-        this.landmarks = null;
+        this.landmarks = this.solvedFor = null;
         await this.endSide();
         return info;
     }
@@ -95,8 +99,11 @@ export class Engine {
         return this.use(({ main }) => main.templateLayout(landmarks, options));
     }
 
-    solve(options: SolveOptions): Promise<EmbedResult> {
-        return this.use(({ main }) => main.solve(options));
+    async solve(options: SolveOptions): Promise<EmbedResult> {
+        this.solvedFor = null;
+        const result = await this.use(({ main }) => main.solve(options));
+        if (result.refined) this.solvedFor = result.landmarks;
+        return result;
     }
 
     /** Solves beside the main session, whose result stays; landmarks as loaded. */
@@ -137,6 +144,25 @@ export class Engine {
         return this.use(({ main }) => main.reshape(shape));
     }
 
+    /** The paths that the edges of the last solve() would take alone. */
+    candidatePaths(): Promise<CandidatePaths> {
+        return this.use(({ main }) => main.candidatePaths());
+    }
+
+    /**
+     * The embedding of the last solve() with landmark `id` elsewhere; null where it does not
+     * follow, or any other landmark is not where it was.
+     */
+    async follow(id: number, landmarks: Uint32Array): Promise<DraggedPaths | null> {
+        const { solvedFor } = this;
+        const vertex = landmarks[id];
+        const fits =
+            solvedFor?.length === landmarks.length &&
+            solvedFor.every((v, i) => i === id || v === landmarks[i]);
+        if (!fits || vertex === undefined) return null;
+        return this.use(({ main }) => main.dragLandmark(id, vertex));
+    }
+
     /** A mesh that was refused, as it stands in its file. */
     inspect(
         role: "layout" | "target",
@@ -162,7 +188,7 @@ export class Engine {
         } catch (error) {
             const code = error instanceof Error && "code" in error ? String(error.code) : "";
             if (fatal.has(code) && this.running === current) {
-                this.running = null;
+                this.running = this.solvedFor = null;
                 current.then(({ worker }) => worker.terminate()).catch(() => undefined);
             }
             throw error;

@@ -17,15 +17,17 @@ import type { Store } from "./store.js";
 export const unsolved = {
     result: null,
     preview: null,
+    follow: null,
     livePaths: null,
     trace: { points: [], incumbents: [] },
     step: null,
     comparison: null,
+    candidates: null,
 } as const;
 
 export interface EditListener {
-    /** Landmarks changed under the hand, and will change again. */
-    dragged: () => void;
+    /** A landmark moved under the hand, and will move again. */
+    dragged: (id: number) => void;
     /** An edit is complete; `wasSolved` tells whether there was an embedding before it. */
     edited: (wasSolved: boolean) => void;
 }
@@ -116,7 +118,7 @@ export class LandmarkEditor {
 
     /** Moves a landmark while it is dragged; the whole drag is one edit. */
     drag(id: number, vertex: number): void {
-        const { landmarks, live, preview, result } = this.store.get();
+        const { landmarks, live, preview, follow, result } = this.store.get();
         if (!landmarks || landmarkOn(landmarks, vertex) !== null) return;
         if (!this.beforeDrag) {
             this.beforeDrag = landmarks;
@@ -126,9 +128,10 @@ export class LandmarkEditor {
             ...unsolved,
             // Shown until the first embedding for the new place is there.
             preview: live ? (preview ?? result) : null,
+            follow: live ? follow : null,
             landmarks: withPlace(landmarks, id, vertex),
         });
-        this.listener.dragged();
+        this.listener.dragged(id);
     }
 
     endDrag(): void {
@@ -249,8 +252,10 @@ export class LandmarkEditor {
     }
 
     private isSolved(): boolean {
-        const { result, preview, activity } = this.store.get();
-        return result !== null || preview !== null || activity?.kind === "solving";
+        const { result, preview, follow, activity } = this.store.get();
+        return (
+            result !== null || preview !== null || follow !== null || activity?.kind === "solving"
+        );
     }
 
     private changed(wasSolved: boolean): void {

@@ -18,6 +18,7 @@ interface SessionDocument {
     readonly repair: boolean;
     readonly options: SavedWork["options"];
     readonly origin: SavedWork["origin"];
+    readonly solved: boolean;
 }
 
 /** The files of a session, by name. */
@@ -31,7 +32,7 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         files[file] = await bytesOf(source);
         return { name, file };
     };
-    const { landmarks, making, quads, repair, options, origin } = work;
+    const { landmarks, making, quads, repair, options, origin, solved } = work;
     const document: SessionDocument = {
         version,
         layout: await pack("layout", work.layout),
@@ -42,6 +43,7 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         repair,
         options,
         origin,
+        solved,
     };
     return { [description]: strToU8(JSON.stringify(document, null, 1)), ...files };
 }
@@ -80,6 +82,7 @@ export function unpackSession(name: string, bytes: Uint8Array): SavedWork {
         repair: document.repair === true,
         options: { ...initialState.options, ...document.options },
         origin: document.origin ?? null,
+        solved: document.solved === true,
     };
 }
 

@@ -1,6 +1,8 @@
 import type {
     Algorithm,
     BoundScope,
+    CandidatePaths,
+    DraggedPaths,
     EmbedResult,
     EmbedStatus,
     LayoutInfo,
@@ -90,6 +92,13 @@ export interface Comparison {
     readonly shown: number | null;
 }
 
+/** The paths that the edges would take alone. */
+export interface Candidates {
+    readonly found: CandidatePaths;
+    /** Whether they are drawn instead of the embedding's. */
+    readonly shown: boolean;
+}
+
 /** What a target of a batch came to; lengths as in EmbedResult. */
 export interface BatchFigures {
     readonly status: EmbedStatus;
@@ -175,8 +184,12 @@ export interface AppState {
     readonly step: number | null;
     /** A quick embedding for the landmarks as they are being dragged. */
     readonly preview: EmbedResult | null;
+    /** The paths that follow the landmark that is being dragged, where they can: quicker still. */
+    readonly follow: DraggedPaths | null;
     readonly result: EmbedResult | null;
     readonly comparison: Comparison | null;
+    /** Null until they were asked for. */
+    readonly candidates: Candidates | null;
     /** Null until one was started. */
     readonly batch: BatchState | null;
     /** Newest last. */
@@ -221,8 +234,10 @@ export const initialState: AppState = {
     trace: { points: [], incumbents: [] },
     step: null,
     preview: null,
+    follow: null,
     result: null,
     comparison: null,
+    candidates: null,
     batch: null,
     problems: [],
     shownPlace: null,

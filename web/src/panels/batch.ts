@@ -92,7 +92,11 @@ function row(entry: BatchEntry, open: () => void): HTMLElement {
     button.addEventListener("click", open);
     const last = create("td");
     last.append(button);
-    line.append(head, ...cells.map((text) => create("td", text)), last);
+    line.append(
+        head,
+        ...cells.map((text, place) => create("td", text, place === 1 ? "" : "whole")),
+        last,
+    );
     line.classList.toggle("failed", state === "failed");
     return line;
 }

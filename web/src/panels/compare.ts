@@ -29,7 +29,7 @@ export function comparePanel(store: Store<AppState>, actions: Actions): void {
                 const line = create("tr");
                 const head = create("th", algorithmWords(algorithm));
                 head.scope = "row";
-                const show = create("button", i === comparison.shown ? "Shown" : "Show");
+                const show = create("button", "Show");
                 show.type = "button";
                 show.setAttribute("aria-label", `Show ${algorithmWords(algorithm)}`);
                 show.setAttribute("aria-pressed", String(i === comparison.shown));
@@ -43,8 +43,8 @@ export function comparePanel(store: Store<AppState>, actions: Actions): void {
                 cell.append(show);
                 line.append(
                     head,
-                    create("td", other ? costWords(other, result) : "–"),
-                    create("td", other ? detourWords(other, result) : "–"),
+                    create("td", other ? excessWords(other, result) : "–", "whole"),
+                    create("td", other ? detourWords(other, result) : "–", "whole"),
                     cell,
                 );
                 return line;
@@ -60,15 +60,19 @@ export function comparePanel(store: Store<AppState>, actions: Actions): void {
 }
 
 function costWords(other: EmbedResult, result: EmbedResult): string {
+    if (!other.refined) return excessWords(other, result);
+    return `${formatLength(other.cost)} (${excessWords(other, result)})`;
+}
+
+function excessWords(other: EmbedResult, result: EmbedResult): string {
     if (!other.refined) return "dead end";
     const more = (other.cost - result.cost) / result.cost;
-    if (more === 0) return `${formatLength(other.cost)} (the same)`;
-    const sign = more >= 0 ? "+" : "−";
-    return `${formatLength(other.cost)} (${sign}${formatGap(Math.abs(more))})`;
+    if (more === 0) return "the same";
+    return `${more >= 0 ? "+" : "−"}${formatGap(Math.abs(more))}`;
 }
 
 function detourWords(other: EmbedResult, result: EmbedResult): string {
     const longest = longestDetour(other, result);
     if (longest && longest.ratio < 1.005) return "none";
-    return longest ? `×${longest.ratio.toFixed(2)} (edge ${longest.edge})` : "–";
+    return longest ? `${longest.edge} (×${longest.ratio.toFixed(2)})` : "–";
 }

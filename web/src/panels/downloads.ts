@@ -1,4 +1,5 @@
 import { strToU8, zip, type Zippable } from "fflate";
+import type { ExportFormat } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
 import { landmarkFile } from "../model/landmark_file.js";
 import { completeIds } from "../model/landmarks.js";
@@ -14,18 +15,24 @@ export function downloadsPanel(
     actions: Actions,
     screenshot: () => Promise<Blob>,
 ): () => void {
-    const save = async (wanted: (name: string) => boolean) => {
-        const files = await actions.exportFiles();
+    const deliver = (files: Readonly<Record<string, Uint8Array>>) => {
         for (const [name, bytes] of Object.entries(files))
-            if (wanted(name))
-                download(name, new Blob([new Uint8Array(bytes)], { type: typeOf(name) }));
+            download(name, new Blob([new Uint8Array(bytes)], { type: typeOf(name) }));
     };
-    const buttons = [...document.querySelectorAll<HTMLButtonElement>("button[data-file]")];
+    const buttons = [
+        ...document.querySelectorAll<HTMLButtonElement>("button[data-file], button[data-format]"),
+    ];
     for (const button of buttons)
-        button.addEventListener(
-            "click",
-            () => void save((name) => name === button.dataset["file"]),
-        );
+        button.addEventListener("click", () => {
+            const { file, format } = button.dataset;
+            const wanted = singleFormats.find((name) => name === format);
+            if (wanted) void actions.exportFormats([wanted]).then(deliver);
+            else
+                void actions.exportFiles().then((files) => {
+                    const bytes = files[file ?? ""];
+                    if (bytes) deliver({ [file ?? ""]: bytes });
+                });
+        });
     const onClick = (id: string, act: () => Promise<void>) => {
         const button = element(id, HTMLButtonElement);
         button.addEventListener("click", () => {
@@ -37,7 +44,7 @@ export function downloadsPanel(
         const { landmarks, target } = store.get();
         const files: Zippable = {
             ...(await actions.exportFiles()),
-            ...(await actions.exportFormats()),
+            ...(await actions.exportFormats(singleFormats)),
         };
         const ids = landmarks && completeIds(landmarks);
         if (ids && target) files["landmarks.txt"] = strToU8(landmarkFile(ids, target));
@@ -66,7 +73,7 @@ export function downloadsPanel(
         },
     );
     return () => {
-        if (store.get().result?.refined) void save(() => true);
+        if (store.get().result?.refined) void actions.exportFiles().then(deliver);
     };
 }
 
@@ -79,4 +86,15 @@ export function zipped(files: Zippable): Promise<Blob> {
     });
 }
 
-const typeOf = (name: string) => (name.endsWith(".json") ? "application/json" : "model/obj");
+/** The formats of other programs, each one file. */
+const singleFormats: readonly ExportFormat[] = ["ply", "vtp", "glb", "svg"];
+
+const types: Partial<Record<string, string>> = {
+    json: "application/json",
+    obj: "model/obj",
+    glb: "model/gltf-binary",
+    svg: "image/svg+xml",
+};
+
+const typeOf = (name: string): string =>
+    types[name.slice(name.lastIndexOf(".") + 1)] ?? "application/octet-stream";

@@ -5,9 +5,14 @@ import type { Store } from "../model/store.js";
 
 const databaseName = "layout-embedding";
 const shelf = "work";
+/** The meshes are large and change seldom: a record of their own. */
+const meshSlot = "meshes";
 const slot = "last";
 /** Milliseconds without a change after which the work is put away. */
-const calm = 800;
+const calm = 500;
+
+type Meshes = Pick<SavedWork, "layout" | "target">;
+type Rest = Omit<SavedWork, keyof Meshes>;
 
 /** Session files, and the copy of the last work in this browser. */
 export interface Keep {
@@ -20,12 +25,23 @@ export interface Keep {
 }
 
 export function keepWork(store: Store<AppState>, actions: Actions): Keep {
+    const shelves = new Shelves();
     let timer: ReturnType<typeof setTimeout> | undefined;
+    let kept: Meshes | null = null;
     const put = () => {
+        clearTimeout(timer);
+        timer = undefined;
         // Examples and shapes that nobody changed are not worth keeping.
         const { origin, undoable } = store.get();
-        const work = origin && !undoable ? null : actions.saved();
-        withShelf("readwrite", (shelves) => shelves.put(work, slot)).catch(() => undefined);
+        if (origin && !undoable) {
+            kept = null;
+            shelves.put({ [slot]: null, [meshSlot]: null });
+            return;
+        }
+        const { layout, target, ...rest } = actions.saved();
+        const known = kept?.layout === layout && kept.target === target;
+        kept = { layout, target };
+        shelves.put({ [slot]: rest, ...(known ? {} : { [meshSlot]: kept }) });
     };
     return {
         async openFiles(files) {
@@ -39,11 +55,12 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
             }
         },
         async restore() {
-            const work = await withShelf<SavedWork | null>("readonly", (shelves) =>
-                shelves.get(slot),
-            ).catch(() => null);
-            if (!work?.target) return false;
-            await actions.restore(work);
+            const [rest, meshes] = await Promise.all([
+                shelves.get<Rest>(slot),
+                shelves.get<Meshes>(meshSlot),
+            ]);
+            if (!rest || !meshes?.target) return false;
+            await actions.restore({ ...rest, ...meshes });
             actions.notice("This is what was open at your last visit. The gallery has examples.");
             return store.get().target !== null;
         },
@@ -55,35 +72,75 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
                     state.landmarks,
                     state.options,
                     state.making,
+                    state.result !== null,
                 ],
                 () => {
                     clearTimeout(timer);
                     timer = setTimeout(put, calm);
                 },
             );
+            // Whoever leaves right after an edit finds it again, too.
+            const flush = () => {
+                if (timer !== undefined) put();
+            };
+            addEventListener("pagehide", flush);
+            document.addEventListener("visibilitychange", () => {
+                if (document.visibilityState === "hidden") flush();
+            });
         },
     };
 }
 
-/** Does one thing with the browser's database; rejected where the page may not have one. */
-function withShelf<Result>(
-    mode: IDBTransactionMode,
-    act: (shelves: IDBObjectStore) => IDBRequest,
-): Promise<Result> {
-    return new Promise((resolve, reject) => {
-        const opening = indexedDB.open(databaseName, 1);
-        const fail = () => reject(new Error("the browser keeps nothing for this page"));
-        opening.onupgradeneeded = () => opening.result.createObjectStore(shelf);
-        opening.onerror = opening.onblocked = fail;
-        opening.onsuccess = () => {
-            const database = opening.result;
-            const transaction = database.transaction(shelf, mode);
-            const request = act(transaction.objectStore(shelf));
-            transaction.oncomplete = () => {
-                database.close();
-                resolve(request.result as Result);
-            };
-            transaction.onabort = transaction.onerror = fail;
-        };
-    });
+/** The browser's database. Where the page may not have one, nothing is kept and nothing is found. */
+class Shelves {
+    /** Open all the time: a page that is being left has no time to open anything. */
+    private database: IDBDatabase | null = null;
+    private readonly opened: Promise<void>;
+
+    constructor() {
+        this.opened = new Promise((resolve) => {
+            const over = () => resolve();
+            try {
+                const opening = indexedDB.open(databaseName, 1);
+                opening.onupgradeneeded = () => opening.result.createObjectStore(shelf);
+                opening.onerror = opening.onblocked = over;
+                opening.onsuccess = () => {
+                    this.database = opening.result;
+                    this.database.onversionchange = () => this.database?.close();
+                    over();
+                };
+            } catch {
+                over();
+            }
+        });
+    }
+
+    /** Null where there is nothing. */
+    async get<Value>(name: string): Promise<Value | null> {
+        await this.opened;
+        return new Promise((resolve) => {
+            try {
+                const request = this.database?.transaction(shelf).objectStore(shelf).get(name);
+                if (!request) return resolve(null);
+                request.onsuccess = () => resolve((request.result as Value | undefined) ?? null);
+                request.onerror = () => resolve(null);
+            } catch {
+                resolve(null);
+            }
+        });
+    }
+
+    /** Puts some values away, all or none. */
+    put(values: Readonly<Record<string, unknown>>): void {
+        try {
+            const transaction = this.database?.transaction(shelf, "readwrite");
+            if (!transaction) return;
+            for (const [name, value] of Object.entries(values))
+                transaction.objectStore(shelf).put(value, name);
+            // Not left to the end of this turn, which a page that is being left may not see.
+            transaction.commit();
+        } catch {
+            // A full disk, a private window: the work is open all the same.
+        }
+    }
 }

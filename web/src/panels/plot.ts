@@ -14,14 +14,14 @@ export function plotPanel(store: Store<AppState>, actions: Actions): void {
     const figure = element("plot", HTMLElement);
     const area = element("plot-area", HTMLElement);
     store.watch(
-        (state) => [state.trace, state.step, state.result],
-        (trace, step, result) => {
+        (state) => [state.trace, state.step],
+        (trace, step) => {
             const last = trace.points.at(-1);
             // A search that was over at once has nothing to tell.
             const first = trace.points.find(({ cost }) => Number.isFinite(cost));
             const moved = first?.cost !== last?.cost || first?.lowerBound !== last?.lowerBound;
             const open = last !== undefined && last.cost > last.lowerBound;
-            figure.hidden = !first || (result !== null && !moved && !open);
+            figure.hidden = !first || (!moved && !open);
             if (figure.hidden || !last) return;
             area.replaceChildren(drawing(trace, step));
             setText("plot-gap", `gap ${formatGap((last.cost - last.lowerBound) / last.cost)}`);

@@ -9,25 +9,39 @@ import { create, element, setText } from "./dom.js";
 /** The figures of the result, or of the search while it runs. */
 export function resultPanel(store: Store<AppState>, actions: Actions): void {
     store.watch(
-        (state) => [state.result, state.preview, state.activity, state.livePaths, state.layout],
-        (result, preview, activity, livePaths, layout) => {
+        (state) => [
+            state.result,
+            state.preview,
+            state.activity,
+            state.livePaths,
+            state.layout,
+            state.follow,
+        ],
+        (result, preview, activity, livePaths, layout, follow) => {
             const total = layout?.edgeCount ?? 0;
-            const shown = result ?? (activity ? null : preview);
-            const embedded = shown?.refined ? total : (livePaths?.layoutEdges.length ?? 0);
+            const quick = activity ? null : follow;
+            const shown = result ?? (activity || follow ? null : preview);
+            const embedded = shown?.refined || quick ? total : (livePaths?.layoutEdges.length ?? 0);
             setText("embedded", layout ? `${embedded} of ${total}` : "–");
             const figures = shown ?? (activity?.kind === "solving" ? activity : null);
-            const cost = figures?.cost ?? Infinity;
+            const cost = quick?.cost ?? figures?.cost ?? Infinity;
             const bound = figures?.lowerBound ?? 0;
             setText("cost", formatLength(cost));
             setText("lower-bound", bound > 0 ? formatLength(bound) : "–");
             setText(
                 "gap-value",
-                Number.isFinite(cost) ? formatGap(shown?.gap ?? (cost - bound) / cost) : "–",
+                Number.isFinite(cost) && figures
+                    ? formatGap(shown?.gap ?? (cost - bound) / cost)
+                    : "–",
             );
             setText("length", shown?.refined ? formatLength(surfaceLength(shown)) : "–");
             setText(
                 "meaning",
-                result ? meaning(result) : shown ? "Quick, while the landmark moves." : "",
+                result
+                    ? meaning(result)
+                    : (shown ?? quick)
+                      ? "Quick, while the landmark moves; the shortest is looked for when it rests."
+                      : "",
             );
         },
     );

@@ -1,4 +1,5 @@
 import type { Actions } from "../model/actions.js";
+import { opponentsOf } from "../model/candidates.js";
 import { formatLength } from "../model/describe.js";
 import { landmarkLabel } from "../model/landmarks.js";
 import type { AppState, Item } from "../model/state.js";
@@ -21,8 +22,15 @@ export function selectionCard(store: Store<AppState>, actions: Actions): void {
     const remove = onClick("selection-remove", ({ id }) => actions.landmarks.remove(id));
     onClick("selection-close", () => actions.select(null));
     store.watch(
-        (state) => [state.selected, state.result, state.landmarks, state.layout, state.placing],
-        (selected, _result, _landmarks, _layout, placing) => {
+        (state) => [
+            state.selected,
+            state.placing,
+            state.result,
+            state.candidates,
+            state.landmarks,
+            state.layout,
+        ],
+        (selected, placing, ..._others) => {
             const figures = selected && figuresOf(selected, store.get());
             card.hidden = !figures || placing !== null;
             if (!selected || !figures) return;
@@ -46,7 +54,7 @@ function titleOf({ kind, id }: Item, { landmarks }: AppState): string {
 
 /** Null where the item is not there any more. */
 function figuresOf({ kind, id }: Item, state: AppState): [string, string][] | null {
-    const { layout, landmarks, result } = state;
+    const { layout, landmarks, result, candidates } = state;
     if (kind === "vertex") {
         const vertex = landmarks?.places[id];
         if (vertex === undefined) return null;
@@ -58,11 +66,20 @@ function figuresOf({ kind, id }: Item, state: AppState): [string, string][] | nu
         if (id >= layout.edgeCount) return null;
         const place = result?.insertionOrder.indexOf(id) ?? -1;
         const ends = layout.edges.subarray(2 * id, 2 * id + 2);
-        return [
+        const figures: [string, string][] = [
             ["Between", [...ends].map((v) => landmarkLabel(landmarks, v)).join(" – ")],
             ["Length", edge ? formatLength(edge.length) : "–"],
-            ["Embedded as number", place >= 0 ? String(place + 1) : "–"],
+            ["Cost", edge ? formatLength(edge.cost) : "–"],
         ];
+        if (candidates) {
+            const opponents = opponentsOf(candidates.found, id);
+            figures.push(
+                ["Cost alone", formatLength(candidates.found.lengths[id] ?? Infinity)],
+                ["In conflict with", opponents.length > 0 ? opponents.join(", ") : "none"],
+            );
+        }
+        figures.push(["Embedded as number", place >= 0 ? String(place + 1) : "–"]);
+        return figures;
     }
     if (id >= layout.faceCount) return null;
     const corners = layout.corners.subarray(layout.offsets[id], layout.offsets[id + 1]);

@@ -16,7 +16,7 @@ export function shortcuts(keys: readonly Shortcut[]): void {
     const help = element("help", HTMLDialogElement);
     const showHelp = () => help.showModal();
     const all = [...keys, { key: "?", does: "This list", act: showHelp }];
-    element("keys", HTMLTableSectionElement).replaceChildren(...all.map(row));
+    element("keys", HTMLElement).replaceChildren(...all.map(row));
     element("help-button", HTMLButtonElement).addEventListener("click", showHelp);
     addEventListener("keydown", (event) => {
         if (event.altKey || event.defaultPrevented) return;
@@ -37,15 +37,14 @@ export function shortcuts(keys: readonly Shortcut[]): void {
 }
 
 function row({ key, does }: Shortcut): HTMLElement {
-    const line = create("tr");
-    const head = create("th");
-    head.scope = "row";
+    const line = create("div");
+    const head = create("dt");
     const separated =
         key === "?" || !key.includes("+") || key.startsWith("+") ? key.split(" ") : key.split("+");
     separated.forEach((part, i) => {
         if (i > 0) head.append(" ");
         head.append(create("kbd", part.length === 1 ? part.toUpperCase() : part));
     });
-    line.append(head, create("td", does));
+    line.append(head, create("dd", does));
     return line;
 }

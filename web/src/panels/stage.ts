@@ -1,5 +1,12 @@
-import type { EmbedResult, PathShape, Polylines, RefinedMesh } from "layout-embedding";
+import type {
+    CandidatePaths,
+    EmbedResult,
+    PathShape,
+    Polylines,
+    RefinedMesh,
+} from "layout-embedding";
 import type { Actions } from "../model/actions.js";
+import { edgesInConflict, opponentsOf } from "../model/candidates.js";
 import { formatLength, shapeWords } from "../model/describe.js";
 import { visibleDetours } from "../model/detours.js";
 import { landmarkLabel } from "../model/landmarks.js";
@@ -90,13 +97,25 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
     );
     let drawn: EmbedResult | null = null;
     store.watch(
-        (state) => [state.result, state.preview, state.livePaths, state.step, state.trace],
+        (state) => [
+            state.result,
+            state.preview,
+            state.follow,
+            state.livePaths,
+            state.step,
+            state.trace,
+            state.candidates,
+            state.candidates?.shown ? state.selected : null,
+        ],
         () => {
             const state = store.get();
             const paths = pathsOf(state);
             const before = drawn;
             drawn = shownResult(state);
-            if (paths && isReshaped(before, drawn) && !wantsStillness()) targetView.glideTo(paths);
+            const { candidates, selected } = state;
+            if (candidates?.shown) targetView.setPaths(paths, inTheWay(candidates.found, selected));
+            else if (paths && isReshaped(before, drawn) && !wantsStillness())
+                targetView.glideTo(paths);
             else targetView.setPaths(paths);
         },
     );
@@ -236,9 +255,21 @@ function link(views: readonly MeshView[], store: Store<AppState>): void {
         };
 }
 
+/** Of the candidate paths, those in conflict: with the chosen one, or with any. */
+const inTheWay = (candidates: CandidatePaths, selected: Item | null): ReadonlySet<number> =>
+    selected?.kind === "edge"
+        ? new Set(opponentsOf(candidates, selected.id))
+        : edgesInConflict(candidates);
+
 /** The embedding whose patches and paths are shown; null for none. */
-const shownResult = ({ result, preview, step }: AppState): EmbedResult | null =>
-    step === null ? (result ?? preview) : null;
+const shownResult = ({
+    result,
+    preview,
+    follow,
+    step,
+    candidates,
+}: AppState): EmbedResult | null =>
+    step === null && !candidates?.shown && !follow ? (result ?? preview) : null;
 
 /** Whether one is the other in another shape: the same search made both. */
 const isReshaped = (before: EmbedResult | null, now: EmbedResult | null): boolean =>
@@ -275,9 +306,10 @@ function chainsOf(result: EmbedResult | null): Polylines | null {
 }
 
 function pathsOf(state: AppState): Polylines | null {
-    const { step, trace, livePaths } = state;
+    const { step, trace, livePaths, candidates, follow } = state;
     if (step !== null) return trace.incumbents[step]?.paths ?? null;
-    return chainsOf(shownResult(state)) ?? livePaths;
+    if (candidates?.shown) return candidates.found.paths;
+    return follow?.paths ?? chainsOf(shownResult(state)) ?? livePaths;
 }
 
 /** Shows where problems lie: a refused mesh over the target's view, a landmark in that view. */
@@ -302,6 +334,7 @@ function placesOfProblems(store: Store<AppState>, actions: Actions, target: Targ
                 if (vertex !== null) target.focusOn(vertex);
                 return;
             }
+            figure.scrollIntoView({ block: "nearest" });
             setText("place-name", `${place.name}, as it was read`);
             view ??= new PlaceView(figure, `Place of the problem in 3D. ${keys}`);
             view.show(place);
@@ -318,8 +351,11 @@ function bannerWhilePlacing(store: Store<AppState>, actions: Actions): void {
     store.watch(
         (state) => [state.placing, state.landmarks, state.making],
         (placing, landmarks, making) => {
+            const begins = banner.hidden && placing !== null;
             banner.hidden = placing === null;
             if (placing === null) return;
+            // On a phone the target may be far above the button.
+            if (begins) element("target-view", HTMLElement).scrollIntoView({ block: "nearest" });
             const label = landmarkLabel(landmarks, placing);
             setText(
                 "placing-text",
@@ -338,7 +374,18 @@ function keysInTarget(store: Store<AppState>, actions: Actions, view: TargetView
         ArrowUp: [0, 1],
         ArrowDown: [0, -1],
     };
-    view.viewer.canvas.addEventListener("keydown", (event) => {
+    const { canvas } = view.viewer;
+    /** Shows where Enter would place the landmark, to those who work with the keys. */
+    const aim = () => {
+        const { placing } = store.get();
+        if (placing !== null && canvas.matches(":focus-visible"))
+            view.setGhost(placing, view.vertexInTheMiddle());
+    };
+    canvas.addEventListener("focus", aim);
+    store.watch((state) => [state.placing, state.landmarks], aim);
+    // After the view itself has turned.
+    canvas.addEventListener("keydown", aim);
+    canvas.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         const { landmarks, selected, placing } = store.get();
         const step = event.shiftKey ? steps[event.key] : undefined;

@@ -6,6 +6,9 @@ import {
     LinearFilter,
     Points,
     ShaderMaterial,
+    Vector2,
+    Vector4,
+    type Plane,
     type WebGLRenderer,
 } from "three";
 import { dotColor, type ViewTheme } from "./colors.js";
@@ -13,6 +16,8 @@ import { dotColor, type ViewTheme } from "./colors.js";
 /** Landmarks beyond this many get dots without numbers: the texture would grow too large. */
 const maximumNumbers = 1024;
 const cell = 64;
+/** CSS pixels across, from which on dots have their full size. */
+const roomyView = 380;
 
 const vertexShader = `
 attribute float number;
@@ -24,6 +29,7 @@ uniform float scale;
 uniform float highlighted;
 uniform float bias;
 uniform float horizon;
+uniform vec4 cut;
 varying float vNumber;
 varying float vHighlighted;
 varying float vHollow;
@@ -43,7 +49,8 @@ void main() {
   gl_PointSize = size * scale * (vHighlighted > 0.5 ? 1.4 : 1.0);
   // Dots on the far side are left out as a whole rather than cut by the silhouette.
   vec3 facing = normalize(normalMatrix * normal);
-  if (dot(facing, normalize(-eye.xyz)) < horizon) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  bool hidden = dot(facing, normalize(-eye.xyz)) < horizon || dot(cut, vec4(position, 1.0)) < 0.0;
+  if (hidden) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const fragmentShader = `
@@ -101,6 +108,7 @@ export class Dots {
             scale: { value: 1 },
             bias: { value: 0 },
             horizon: { value: 0 },
+            cut: { value: new Vector4(0, 0, 0, 1) },
             highlighted: { value: -1 },
             opacity: { value: 1 },
             digits: { value: null },
@@ -124,8 +132,12 @@ export class Dots {
         this.points.renderOrder = 4;
         this.points.frustumCulled = false;
         this.points.visible = false;
+        const view = new Vector2();
         this.points.onBeforeRender = (renderer: WebGLRenderer) => {
-            this.material.uniforms["scale"]!.value = renderer.getPixelRatio();
+            renderer.getSize(view);
+            // In a small view, dots of full size would hide the shape.
+            const share = Math.min(1, Math.max(0.6, Math.min(view.x, view.y) / roomyView));
+            this.material.uniforms["scale"]!.value = renderer.getPixelRatio() * share;
         };
     }
 
@@ -189,6 +201,12 @@ export class Dots {
     set shown(on: boolean) {
         this.isShown = on;
         this.points.visible = on && this.points.geometry.hasAttribute("position");
+    }
+
+    /** Leaves out what lies on the negative side of a plane; null for nothing. */
+    setCut(plane: Plane | null): void {
+        const { x, y, z } = plane?.normal ?? { x: 0, y: 0, z: 0 };
+        (this.material.uniforms["cut"]!.value as Vector4).set(x, y, z, plane?.constant ?? 1);
     }
 
     highlight(id: number | null): void {

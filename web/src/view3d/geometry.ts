@@ -60,15 +60,23 @@ export function plainSurface(
     return geometry;
 }
 
+/** A surface whose triangles are in the order of its faces: patches, or faces of the layout. */
+export interface FacedSurface {
+    readonly geometry: BufferGeometry;
+    /** Per face: its first corner; one more number than there are faces. */
+    readonly faceOffsets: Uint32Array;
+}
+
 /**
  * The refined mesh with a colour per patch. Vertices between patches are doubled, one copy per
- * patch, so that the colours stay sharp while the shading stays smooth.
+ * patch, so that the colours stay sharp while the shading stays smooth. What lies outside all
+ * patches comes last.
  */
 export function patchSurface(
     refined: RefinedMesh,
     colorOfPatch: Uint32Array,
     outside: string,
-): BufferGeometry {
+): FacedSurface {
     const { positions, corners: triangles, patches } = refined;
     const vertexCount = positions.length / 3;
     const normals = vertexNormals(positions, triangles);
@@ -91,6 +99,12 @@ export function patchSurface(
         patchOf = enlarged(patchOf, new Int32Array(capacity));
         nextOf = enlarged(nextOf, new Uint32Array(capacity));
     };
+    const patchCount = colorOfPatch.length;
+    const placeOf = (patch: number) => (patch < 0 ? patchCount : patch);
+    const faceOffsets = new Uint32Array(patchCount + 2);
+    for (const patch of patches) faceOffsets[placeOf(patch) + 1]! += 3;
+    for (let p = 0; p <= patchCount; ++p) faceOffsets[p + 1]! += faceOffsets[p]!;
+    const filled = faceOffsets.slice();
     const index = new Uint32Array(triangles.length);
     for (let i = 0; i < triangles.length; ++i) {
         const patch = patches[Math.floor(i / 3)]!;
@@ -106,7 +120,7 @@ export function patchSurface(
             }
             copy = nextOf[copy]!;
         }
-        index[i] = copy;
+        index[filled[placeOf(patch)]!++] = copy;
     }
 
     const palette = Array.from(colorOfPatch, (hex) => new Color(hex));
@@ -130,20 +144,7 @@ export function patchSurface(
     geometry.setAttribute("normal", new BufferAttribute(normal, 3));
     geometry.setAttribute("color", new BufferAttribute(color, 3));
     geometry.setIndex(new BufferAttribute(index, 1));
-    return geometry;
-}
-
-/** The triangles of one patch, to be drawn over the others. */
-export function patchOverlay(refined: RefinedMesh, patch: number): BufferGeometry {
-    const positions: number[] = [];
-    for (let t = 0; t < refined.patches.length; ++t) {
-        if (refined.patches[t] !== patch) continue;
-        for (const v of refined.corners.subarray(3 * t, 3 * t + 3))
-            positions.push(...refined.positions.subarray(3 * v, 3 * v + 3));
-    }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
-    return geometry;
+    return { geometry, faceOffsets: faceOffsets.subarray(0, patchCount + 1) };
 }
 
 /** Surface area per patch. */
@@ -197,14 +198,11 @@ export class PatchFinder {
     }
 }
 
-/** The layout's polygons, flat, each in its colour, and the face that each triangle belongs to. */
-export function layoutSurface(
-    layout: LayoutInfo,
-    colorOfFace: Uint32Array,
-): { geometry: BufferGeometry; faceOfTriangle: Uint32Array } {
+/** The layout's polygons, flat, each in its colour. */
+export function layoutSurface(layout: LayoutInfo, colorOfFace: Uint32Array): FacedSurface {
     const position: number[] = [];
     const color: number[] = [];
-    const faceOfTriangle: number[] = [];
+    const faceOffsets = new Uint32Array(layout.offsets.length);
     const fill = new Color();
     for (let f = 0; f + 1 < layout.offsets.length; ++f) {
         const face = layout.corners.subarray(layout.offsets[f], layout.offsets[f + 1]);
@@ -215,13 +213,13 @@ export function layoutSurface(
             position.push(...points[corner]!.toArray());
             color.push(fill.r, fill.g, fill.b);
         }
-        faceOfTriangle.push(...triangles.map(() => f));
+        faceOffsets[f + 1] = position.length / 3;
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(position), 3));
     geometry.setAttribute("color", new BufferAttribute(new Float32Array(color), 3));
     geometry.computeVertexNormals();
-    return { geometry, faceOfTriangle: Uint32Array.from(faceOfTriangle) };
+    return { geometry, faceOffsets };
 }
 
 /** Triangles of a polygon that need not be flat or convex, as places in `points`. */

@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Raycaster } from "three";
+import { DoubleSide, FrontSide, Raycaster } from "three";
 import type { LayoutInfo } from "layout-embedding";
 import type { Landmarks } from "../model/landmarks.js";
 import { patchColors } from "./colors.js";
@@ -9,7 +9,6 @@ import { MeshView, type ViewHit, type ViewListener } from "./mesh_view.js";
 export class LayoutView extends MeshView {
     private layout: LayoutInfo | null = null;
     private normals = new Float32Array();
-    private faceOfTriangle: Uint32Array = new Uint32Array();
 
     constructor(host: HTMLElement, label: string, listener: ViewListener) {
         // At sharp corners the mean normal tells nothing: what hides a dot is the faces before it.
@@ -19,13 +18,12 @@ export class LayoutView extends MeshView {
     setLayout(layout: LayoutInfo | null): void {
         this.layout = layout;
         const made = layout ? layoutSurface(layout, patchColors(layout)) : null;
-        this.faceOfTriangle = made?.faceOfTriangle ?? new Uint32Array();
         this.normals = layout ? vertexNormals(layout.positions, fans(layout)) : new Float32Array();
         this.material.vertexColors = true;
         this.material.flatShading = true;
         this.material.side = this.side();
         this.material.needsUpdate = true;
-        this.setGeometry(made?.geometry ?? null);
+        this.setSurfaceGeometry(made);
         this.viewer.frameOn(layout?.positions ?? []);
         this.shownPaths = layout ? straightEdges(layout) : null;
         this.tubes.setPaths(this.shownPaths);
@@ -58,26 +56,12 @@ export class LayoutView extends MeshView {
         const [hit] = caster.intersectObject(this.mesh, false);
         const face = hit?.faceIndex ?? null;
         if (!hit || face === null) return null;
-        const patch = this.faceOfTriangle[face] ?? -1;
+        const patch = this.faceOffsets.findIndex((begin) => begin > 3 * face) - 1;
         return { face, point: hit.point, distance: hit.distance, patch };
     }
 
     protected override vertexAt(): null {
         return null;
-    }
-
-    protected override faceGeometry(face: number): BufferGeometry | null {
-        const from = this.mesh.geometry.getAttribute("position");
-        if (!from) return null;
-        const positions: number[] = [];
-        this.faceOfTriangle.forEach((f, t) => {
-            if (f !== face) return;
-            for (let i = 3 * t; i < 3 * t + 3; ++i)
-                positions.push(from.getX(i), from.getY(i), from.getZ(i));
-        });
-        const geometry = new BufferGeometry();
-        geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
-        return geometry;
     }
 
     protected override side(): 0 | 2 {

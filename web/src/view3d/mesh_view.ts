@@ -5,11 +5,13 @@ import {
     MeshBasicMaterial,
     MeshLambertMaterial,
     type Plane,
+    type Ray,
     type Vector3,
 } from "three";
 import type { Polylines } from "layout-embedding";
 import type { Item } from "../model/state.js";
 import { currentTheme } from "./colors.js";
+import type { FacedSurface } from "./geometry.js";
 import { Dots, type Dot } from "./dots.js";
 import { pick } from "./pick.js";
 import { PathTubes } from "./tubes.js";
@@ -56,6 +58,11 @@ export abstract class MeshView {
     protected readonly dots: Dots;
     protected shownDots: readonly Dot[] = [];
     protected shownPaths: Polylines | null = null;
+    /** Per face of the surface: its first corner; empty where there are no faces to be pointed at. */
+    protected faceOffsets: Uint32Array = new Uint32Array();
+    private markedFace: number | null = null;
+    /** What lies on its negative side is cut away; null for nothing. */
+    private cut: Plane | null = null;
     private hoverFrame = 0;
     private pressed: { x: number; y: number; dot: number | null } | null = null;
     private dragging = false;
@@ -87,10 +94,7 @@ export abstract class MeshView {
     highlight(item: Item | null): void {
         this.tubes.highlight(item?.kind === "edge" ? item.id : null);
         this.dots.highlight(item?.kind === "vertex" ? item.id : null);
-        this.overlay.geometry.dispose();
-        const geometry = item?.kind === "face" ? this.faceGeometry(item.id) : null;
-        this.overlay.visible = geometry !== null;
-        this.overlay.geometry = geometry ?? new BufferGeometry();
+        this.markFace(item?.kind === "face" ? item.id : null);
         this.viewer.requestRender();
     }
 
@@ -111,13 +115,14 @@ export abstract class MeshView {
 
     /** Cuts away a share of the front, as seen now. */
     setClip(share: number): void {
-        const plane = this.viewer.cutPlane(share);
-        const planes: Plane[] | null = plane ? [plane] : null;
+        this.cut = this.viewer.cutPlane(share);
+        const planes = this.cut ? [this.cut] : null;
         this.material.clippingPlanes = planes;
         this.material.side = planes ? DoubleSide : this.side();
         this.material.needsUpdate = true;
         this.overlay.material.clippingPlanes = planes;
         this.tubes.setClip(planes);
+        this.dots.setCut(this.cut);
         this.viewer.requestRender();
     }
 
@@ -131,6 +136,7 @@ export abstract class MeshView {
                 horizon: this.horizon,
                 paths: this.tubes.group.visible ? this.shownPaths : null,
                 surface: hit?.distance ?? Infinity,
+                cut: this.cut,
             },
             0.08 * radius,
             camera,
@@ -143,16 +149,47 @@ export abstract class MeshView {
         return { item, vertex: hit ? this.vertexAt(hit, dragged) : null };
     }
 
+    /**
+     * The line of sight through a point of the canvas, from where nothing is cut away on; `from` is
+     * how far that is from the eye.
+     */
+    protected sightLine(x: number, y: number): { ray: Ray; from: number } | null {
+        const ray = this.viewer.ray(x, y).clone();
+        if (!this.cut || this.cut.distanceToPoint(ray.origin) >= 0) return { ray, from: 0 };
+        const from = ray.distanceToPlane(this.cut);
+        return from === null ? null : { ray: ray.recast(from), from };
+    }
+
     protected abstract surfaceAt(x: number, y: number): ViewHit | null;
     protected abstract vertexAt(hit: ViewHit, dragged: number | null): number | null;
-    protected abstract faceGeometry(face: number): BufferGeometry | null;
     /** Which sides of the surface are drawn while nothing is cut away. */
     protected abstract side(): 0 | 2;
 
-    protected setGeometry(geometry: BufferGeometry | null): void {
+    /** The surface to be drawn; its triangles are in the order of its faces, if it has any. */
+    protected setSurfaceGeometry(surface: FacedSurface | BufferGeometry | null): void {
+        const faced = surface !== null && "faceOffsets" in surface ? surface : null;
+        const geometry = faced?.geometry ?? (surface as BufferGeometry | null);
         this.mesh.geometry.dispose();
+        this.overlay.geometry.dispose();
         this.mesh.geometry = geometry ?? new BufferGeometry();
         this.mesh.visible = geometry !== null;
+        this.faceOffsets = faced?.faceOffsets ?? new Uint32Array();
+        // The same triangles again: a face is a range of them.
+        const again = new BufferGeometry();
+        if (faced) {
+            again.setAttribute("position", faced.geometry.getAttribute("position"));
+            again.setIndex(faced.geometry.getIndex());
+        }
+        this.overlay.geometry = again;
+        this.markFace(this.markedFace);
+    }
+
+    private markFace(face: number | null): void {
+        this.markedFace = face;
+        const [begin, end] = face === null ? [] : this.faceOffsets.subarray(face, face + 2);
+        this.overlay.visible = begin !== undefined && end !== undefined;
+        if (begin !== undefined && end !== undefined)
+            this.overlay.geometry.setDrawRange(begin, end - begin);
     }
 
     private listen(host: HTMLElement): void {

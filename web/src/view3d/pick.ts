@@ -1,4 +1,4 @@
-import { Vector3, type PerspectiveCamera } from "three";
+import { Vector3, type PerspectiveCamera, type Plane } from "three";
 import type { Polylines } from "layout-embedding";
 import type { Item } from "../model/state.js";
 import type { Dot } from "./dots.js";
@@ -14,6 +14,8 @@ export interface Pickable {
     readonly paths: Polylines | null;
     /** Distance from the eye to the surface under the pointer: what lies behind does not count. */
     readonly surface: number;
+    /** What lies on its negative side is cut away; null for nothing. */
+    readonly cut: Plane | null;
 }
 
 /**
@@ -21,7 +23,7 @@ export interface Pickable {
  * of points.
  */
 export function pick(
-    { dots, horizon, paths, surface }: Pickable,
+    { dots, horizon, paths, surface, cut }: Pickable,
     slack: number,
     camera: PerspectiveCamera,
     canvas: HTMLCanvasElement,
@@ -39,13 +41,15 @@ export function pick(
         screen.y = ((1 - point.y) / 2) * clientHeight;
     };
 
+    const isCutAway = () => cut !== null && cut.distanceToPoint(point) < 0;
+
     let best: Item | null = null;
     let bestDepth = surface + slack;
     for (const dot of dots) {
         point.set(dot.place[0]!, dot.place[1]!, dot.place[2]);
         normal.set(dot.normal[0]!, dot.normal[1]!, dot.normal[2]);
         const sight = camera.position.clone().sub(point).normalize();
-        if (normal.dot(sight) < horizon) continue;
+        if (normal.dot(sight) < horizon || isCutAway()) continue;
         project();
         if (Math.hypot(screen.x - x, screen.y - y) > reach || screen.depth >= bestDepth) continue;
         best = { kind: "vertex", id: dot.id };
@@ -57,6 +61,10 @@ export function pick(
         let from: { x: number; y: number } | null = null;
         for (let i = paths.offsets[p]!; i < paths.offsets[p + 1]!; ++i) {
             point.set(paths.points[3 * i]!, paths.points[3 * i + 1]!, paths.points[3 * i + 2]);
+            if (isCutAway()) {
+                from = null;
+                continue;
+            }
             project();
             const to = { x: screen.x, y: screen.y };
             if (

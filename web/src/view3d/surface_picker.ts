@@ -8,7 +8,13 @@ export interface SurfaceHit {
     readonly distance: number;
 }
 
-/** Finds triangles under the pointer; the tree behind it is built when it is first needed. */
+/** Triangles in a leaf of the tree: more make it quicker to build and slower to ask, both a little. */
+const leafSize = 24;
+
+/**
+ * Finds triangles under the pointer. The tree behind it takes half a second for a million triangles:
+ * it is built when the browser has nothing else to do, or when it is first needed.
+ */
 export class SurfacePicker {
     private tree: MeshBVH | null = null;
     private neighbours: { offsets: Uint32Array; ids: Uint32Array } | null = null;
@@ -16,7 +22,13 @@ export class SurfacePicker {
     constructor(
         private readonly positions: Float64Array,
         private readonly corners: Uint32Array,
-    ) {}
+    ) {
+        const prepare = () => {
+            this.tree ??= this.build();
+        };
+        if ("requestIdleCallback" in globalThis) requestIdleCallback(prepare);
+        else setTimeout(prepare, 500);
+    }
 
     hit(ray: Ray): SurfaceHit | null {
         this.tree ??= this.build();
@@ -68,7 +80,7 @@ export class SurfacePicker {
         geometry.setAttribute("position", new BufferAttribute(new Float32Array(this.positions), 3));
         geometry.setIndex(new BufferAttribute(this.corners, 1));
         // Indirect: the faces keep their numbers.
-        return new MeshBVH(geometry, { indirect: true });
+        return new MeshBVH(geometry, { indirect: true, targetLeafSize: leafSize });
     }
 
     private findNeighbours(): { offsets: Uint32Array; ids: Uint32Array } {

@@ -1,15 +1,9 @@
-import { DoubleSide, FrontSide, Vector3, type BufferGeometry } from "three";
+import { DoubleSide, FrontSide, Vector3 } from "three";
 import type { LayoutInfo, Polylines, RefinedMesh, TargetInfo } from "layout-embedding";
 import type { Landmarks } from "../model/landmarks.js";
 import { currentTheme, patchColors } from "./colors.js";
 import { Dots, type Dot } from "./dots.js";
-import {
-    PatchFinder,
-    patchOverlay,
-    patchSurface,
-    plainSurface,
-    vertexNormals,
-} from "./geometry.js";
+import { PatchFinder, patchSurface, plainSurface, vertexNormals } from "./geometry.js";
 import { MeshView, type ViewHit, type ViewListener } from "./mesh_view.js";
 import { glide, sameEdges } from "./morph.js";
 import { SurfacePicker } from "./surface_picker.js";
@@ -53,10 +47,10 @@ export class TargetView extends MeshView {
         this.refined = patched ? refined : null;
         this.patches = null;
         if (patched) {
-            this.setGeometry(patchSurface(refined, patchColors(layout), theme.clay));
+            this.setSurfaceGeometry(patchSurface(refined, patchColors(layout), theme.clay));
             material.color.set(0xffffff);
         } else {
-            this.setGeometry(target ? plainSurface(target, this.normals) : null);
+            this.setSurfaceGeometry(target ? plainSurface(target, this.normals) : null);
             material.color.set(theme.clay);
         }
         material.vertexColors = patched;
@@ -128,8 +122,10 @@ export class TargetView extends MeshView {
     }
 
     protected override surfaceAt(x: number, y: number): ViewHit | null {
-        const hit = this.picker?.hit(this.viewer.ray(x, y));
-        if (!hit || !this.target) return null;
+        const line = this.sightLine(x, y);
+        const seen = line && this.picker?.hit(line.ray);
+        if (!seen || !this.target) return null;
+        const hit = { ...seen, distance: seen.distance + line.from };
         if (!this.refined) return { ...hit, patch: -1 };
         this.patches ??= new PatchFinder(this.refined, this.target.faceCount);
         return { ...hit, patch: this.patches.at(hit.face, hit.point) };
@@ -137,10 +133,6 @@ export class TargetView extends MeshView {
 
     protected override vertexAt(hit: ViewHit, dragged: number | null): number | null {
         return this.picker?.nearestCorner(hit, (vertex) => this.isFree(vertex, dragged)) ?? null;
-    }
-
-    protected override faceGeometry(face: number): BufferGeometry | null {
-        return this.refined ? patchOverlay(this.refined, face) : null;
     }
 
     protected override side(): 0 | 2 {

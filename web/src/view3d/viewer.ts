@@ -89,6 +89,7 @@ export class Viewer {
         const sphere = boundingSphere(positions);
         this.radius = sphere.radius > 0 ? sphere.radius : 1;
         this.center.copy(sphere.center);
+        this.center.add(this.offCentre(sampled(positions, this.center, this.radius)));
         this.silhouette = sampled(positions, this.center, this.radius);
         this.resetView();
     }
@@ -211,11 +212,32 @@ export class Viewer {
         this.renderer.render(this.scene, this.camera);
     }
 
+    /** How far the middle of some points' picture, from the first side, is off the middle of the view. */
+    private offCentre(points: readonly Vector3[]): Vector3 {
+        const { right, up } = this.screenAxes(startDirection);
+        // About as near as the eye will be; the farther, the smaller.
+        const distance = 1 / Math.tan(((this.camera.fov / 2) * Math.PI) / 180);
+        const offset = new Vector3();
+        for (const axis of [right, up]) {
+            const places = points.map(
+                (point) => point.dot(axis) / (1 - point.dot(startDirection) / distance),
+            );
+            const middle =
+                places.length > 0 ? (maximum(places) - maximum(places.map(negated))) / 2 : 0;
+            offset.addScaledVector(axis, middle * this.radius);
+        }
+        return offset;
+    }
+
+    private screenAxes(direction: Vector3): { right: Vector3; up: Vector3 } {
+        const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
+        return { right, up: new Vector3().crossVectors(direction, right) };
+    }
+
     /** How far from the centre the eye has to be, on one side, to see everything. */
     private fittingDistance(direction: Vector3): number {
         const tangent = Math.tan(((this.camera.fov / 2) * Math.PI) / 180);
-        const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
-        const up = new Vector3().crossVectors(direction, right);
+        const { right, up } = this.screenAxes(direction);
         let distance = 1;
         for (const point of this.silhouette) {
             const toward = point.dot(direction);
@@ -274,6 +296,9 @@ export class Viewer {
         this.moveTo(offset.clone().normalize(), offset.length());
     }
 }
+
+const negated = (value: number) => -value;
+const maximum = (values: readonly number[]) => values.reduce((a, b) => Math.max(a, b), -Infinity);
 
 function boundingSphere(positions: ArrayLike<number>): Sphere {
     const box = new Box3();
