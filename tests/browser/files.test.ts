@@ -4,9 +4,12 @@ import {
     LayoutError,
     Session,
     type EmbeddingDocument,
+    type LayoutInfo,
     type RefinedMapDocument,
+    type TargetInfo,
 } from "layout-embedding";
 import { expect, inject, test } from "vitest";
+import { aligned } from "../../web/src/model/alignment.js";
 import {
     downloaded,
     drop,
@@ -123,6 +126,41 @@ test("files_chosen_together_get_their_roles_and_can_be_solved", async () => {
     expect(await page.textContent("#landmarks-name")).toBe("8, by proximity");
     await solve(page);
     expect(await page.textContent("#embedded")).toBe("12 of 12");
+});
+
+test("a_layout_that_lies_elsewhere_is_aligned_before_its_landmarks_are_placed", async () => {
+    const { page } = opened();
+    const cost = await page.textContent("#cost");
+    const positions = cube.positions.map((x) => 100 * x + 4000);
+    await page.setInputFiles("#layout-file", textFile("far.obj", toObj({ ...cube, positions })));
+    await untilStatus(page, ready);
+    expect(await page.textContent("#notices")).toContain("aligned");
+    expect(await page.isChecked("#align")).toBe(true);
+    await solve(page);
+    expect(await page.textContent("#cost")).toBe(cost);
+    await page.setInputFiles("#layout-file", textFile("b.obj", layoutText));
+    await untilStatus(page, ready);
+    expect(await page.isChecked("#align")).toBe(false);
+    await solve(page);
+    expect(await page.textContent("#cost")).toBe(cost);
+});
+
+test("aligning_finds_place_size_and_axes", () => {
+    // The corners of a box, and the box's own corners under a rotation, a motion and a scaling.
+    const box: number[] = [];
+    for (const x of [0, 1]) for (const y of [0, 2]) for (const z of [0, 4]) box.push(x, y, z);
+    const moved = box.map((_, i) => {
+        const [x, y, z] = box.slice(i - (i % 3), i - (i % 3) + 3) as [number, number, number];
+        return 10 * [y + 5, z, -x][i % 3]!;
+    });
+    const layout = { positions: Float64Array.from(box) } as LayoutInfo;
+    const target = { positions: Float64Array.from(moved), vertexCount: 8 } as TargetInfo;
+    const { positions } = aligned(layout, target);
+    const corners = (points: ArrayLike<number>) =>
+        Array.from({ length: 8 }, (_, v) =>
+            [0, 1, 2].map((axis) => points[3 * v + axis]!.toFixed(9).replace("-0.0", "0.0")).join(),
+        ).sort();
+    expect(corners(positions)).toEqual(corners(moved));
 });
 
 test("the_files_taken_home_pass_the_checker", async () => {

@@ -10,6 +10,7 @@ import type {
 } from "layout-embedding";
 import type { Example } from "../examples/index.js";
 import type { Shape } from "../gallery/catalogue.js";
+import { aligned, areFarApart } from "./alignment.js";
 import { Batch, pairFiles } from "./batch.js";
 import {
     algorithmWords,
@@ -393,6 +394,10 @@ export class Actions {
         this.store.update({ repair });
     }
 
+    setAlign(align: boolean): void {
+        this.store.update({ align });
+    }
+
     setLive(live: boolean): void {
         this.store.update({ live });
     }
@@ -547,15 +552,25 @@ export class Actions {
     /** Proximity where layout and target allow it; used after loading. */
     private async guessLandmarks(): Promise<void> {
         const { layout, target } = this.store.get();
-        if (layout && target && layout.vertexCount <= target.vertexCount) await this.proximity();
+        if (!layout || !target || layout.vertexCount > target.vertexCount) return;
+        const align = areFarApart(layout, target);
+        this.store.update({ align });
+        if (align)
+            this.notice(
+                "Layout and target do not lie in one place: the layout was aligned to the target " +
+                    "for its landmarks.",
+            );
+        await this.proximity();
     }
 
     private async proximity(): Promise<void> {
         await this.attempt(
             "Placing landmarks by proximity",
             async () => {
-                const { landmarks, notes } = await this.engine.landmarksByProximity();
-                this.replaceLandmarks(landmarks, "by proximity", notes);
+                const { layout, target, align } = this.store.get();
+                const elsewhere = align && layout && target ? aligned(layout, target) : null;
+                const { landmarks, notes } = await this.engine.landmarksByProximity(elsewhere);
+                this.replaceLandmarks(landmarks, align ? "aligned" : "by proximity", notes);
             },
             (error) => this.report(error, { remedy: this.newLayoutRemedy(error) }),
         );

@@ -10,6 +10,7 @@ import type {
     LandmarksInfo,
     LayoutInfo,
     LoadOptions,
+    MeshArrays,
     MeshInput,
     PathShape,
     SolveOptions,
@@ -89,10 +90,29 @@ export class Engine {
         await this.setLandmarks(ids, { numbering: "loaded" });
     }
 
-    async landmarksByProximity(): Promise<LandmarksInfo> {
-        const info = await this.use(({ main }) => main.landmarksByProximity());
+    /** By proximity of the layout, or of another one with the same vertices somewhere else. */
+    async landmarksByProximity(elsewhere: MeshArrays | null = null): Promise<LandmarksInfo> {
+        const info = await this.use(({ worker, main }) =>
+            elsewhere ? this.landmarksNear(elsewhere, worker, main) : main.landmarksByProximity(),
+        );
         this.landmarks = info.landmarks;
         return info;
+    }
+
+    private async landmarksNear(
+        layout: MeshArrays,
+        worker: Worker,
+        main: EmbeddingSession,
+    ): Promise<LandmarksInfo> {
+        const session = await worker.createSession();
+        try {
+            await session.loadLayout(layout);
+            if (this.target) await session.loadTarget(...this.target);
+            const { landmarks } = await session.landmarksByProximity();
+            return await main.setLandmarks(landmarks, { numbering: "loaded" });
+        } finally {
+            await session.dispose().catch(() => undefined);
+        }
     }
 
     templateLayout(landmarks: LandmarkInput, options: TemplateOptions): Promise<TemplateLayout> {

@@ -173,6 +173,8 @@ export interface AppState {
     readonly redoable: boolean;
     /** Whether the embedding follows while a landmark is dragged. */
     readonly live: boolean;
+    /** Whether the layout is aligned to the target before landmarks are placed by proximity. */
+    readonly align: boolean;
     readonly options: SolveSettings;
     /** Mend what can be mended safely when a file is read. */
     readonly repair: boolean;
@@ -220,6 +222,7 @@ export const initialState: AppState = {
     undoable: false,
     redoable: false,
     live: true,
+    align: false,
     options: {
         algorithm: null,
         gap: 0.01,

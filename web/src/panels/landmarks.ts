@@ -23,6 +23,9 @@ export function landmarksPanel(store: Store<AppState>, actions: Actions): void {
     const live = element("live", HTMLInputElement);
     live.addEventListener("change", () => actions.setLive(live.checked));
 
+    const align = element("align", HTMLInputElement);
+    align.addEventListener("change", () => actions.setAlign(align.checked));
+
     const table = element("landmark-table", HTMLDetailsElement);
     const rows: Row[] = [];
     const body = element("landmark-rows", HTMLTableSectionElement);
@@ -67,9 +70,10 @@ export function landmarksPanel(store: Store<AppState>, actions: Actions): void {
         },
     );
     store.watch(
-        (state) => [state.live],
-        (on) => {
-            live.checked = on;
+        (state) => [state.live, state.align],
+        (follows, aligns) => {
+            live.checked = follows;
+            align.checked = aligns;
         },
     );
     store.watch(
