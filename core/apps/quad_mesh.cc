@@ -6,6 +6,7 @@
 
 #include "apps/base_complex.hh"
 #include "apps/quad_relaxation.hh"
+#include "embedding/refined_origin.hh"
 #include "mesh/mesh_writer.hh"
 #include "patches/parametrisation.hh"
 #include "patches/patch.hh"
@@ -29,57 +30,6 @@ double surface_area(const TriangleMesh& mesh)
     }
     return sum;
 }
-
-/// The places of refined points on the target.
-class Origin {
-public:
-    Origin(const TriangleMesh& target, const RefinedMesh& refined)
-        : target_(target), refined_(refined)
-    {}
-
-    /// A point of a refined triangle, as weights of its corners.
-    SurfacePoint in_triangle(Index triangle, const std::array<double, 3>& weights) const
-    {
-        SurfacePoint point{refined_.triangle_faces[triangle], {0, 0, 0}};
-        for (std::size_t i = 0; i < 3; ++i) {
-            add(refined_.corners[3 * std::size_t{triangle} + i], weights[i], point);
-        }
-        double sum = 0;
-        for (const double coordinate : point.barycentrics) {
-            sum += coordinate;
-        }
-        for (double& coordinate : point.barycentrics) {
-            coordinate /= sum;
-        }
-        return point;
-    }
-
-private:
-    /// Adds a refined vertex, which lies in the point's face or on its rim.
-    void add(Index vertex, double weight, SurfacePoint& point) const
-    {
-        const auto corners = target_.face(point.face);
-        const auto add_corner = [&](Index target_vertex, double share) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                if (corners[i] == target_vertex) {
-                    point.barycentrics[i] += share;
-                }
-            }
-        };
-        if (vertex < target_.vertex_count()) {
-            add_corner(vertex, weight);
-            return;
-        }
-        const Index k = vertex - target_.vertex_count();
-        const auto of_vertex = target_.face(refined_.vertex_faces[k]);
-        for (std::size_t i = 0; i < 3; ++i) {
-            add_corner(of_vertex[i], weight * refined_.vertex_barycentrics[k][i]);
-        }
-    }
-
-    const TriangleMesh& target_;
-    const RefinedMesh& refined_;
-};
 
 class QuadMesher {
 public:
@@ -296,28 +246,8 @@ private:
     SurfacePoint on_surface(const Patch& patch, const Parametrisation& map,
                             const PointLocation::Place& place) const
     {
-        const Index parent = map.parents[place.triangle];
-        // Per corner of the patch's triangle.
-        std::array<double, 3> weights{0, 0, 0};
-        const auto add = [&](Index vertex, double weight) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                if (patch.corners[parent][i] == vertex) {
-                    weights[i] += weight;
-                }
-            }
-        };
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Index vertex = map.corners[place.triangle][i];
-            const double weight = place.barycentrics[i];
-            if (vertex < patch.vertices.size()) {
-                add(vertex, weight);
-            } else {
-                const auto& [a, b] = map.splits[vertex - patch.vertices.size()];
-                add(a, weight / 2);
-                add(b, weight / 2);
-            }
-        }
-        return origin_.in_triangle(patch.triangles[parent], weights);
+        const auto weights = map.weights_in_parent(patch, place.triangle, place.barycentrics);
+        return origin_.in_triangle(patch.triangles[map.parents[place.triangle]], weights);
     }
 
     template <typename Lift>
@@ -391,7 +321,7 @@ private:
     const RefinedMesh& refined_;
     const QuadOptions& options_;
     BaseComplex base_;
-    Origin origin_;
+    RefinedOrigin origin_;
     std::vector<Index> segments_;                               // per base edge
     std::map<std::pair<Index, Index>, Index> chain_triangles_;  // by refined edge
     std::vector<std::vector<Index>> edge_vertices_;             // per base edge

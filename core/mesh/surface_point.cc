@@ -59,6 +59,22 @@ Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point)
            point.barycentrics[2] * mesh.position(corners[2]);
 }
 
+std::array<double, 3> coordinates_in_face(const TriangleMesh& mesh, const SurfacePoint& point,
+                                          Index face)
+{
+    std::array<double, 3> coordinates{0, 0, 0};
+    const auto own = mesh.face(point.face);
+    const auto corners = mesh.face(face);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (corners[k] == own[i]) {
+                coordinates[k] += point.barycentrics[i];
+            }
+        }
+    }
+    return coordinates;
+}
+
 Vec3 face_normal(const TriangleMesh& mesh, Index face)
 {
     const auto corners = mesh.face(face);

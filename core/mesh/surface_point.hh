@@ -15,6 +15,11 @@ struct SurfacePoint {
 
 Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point);
 
+/// The barycentric coordinates in `face` of a point that is given in that face or in one beside it,
+/// on its rim.
+std::array<double, 3> coordinates_in_face(const TriangleMesh& mesh, const SurfacePoint& point,
+                                          Index face);
+
 /// The unit normal of a face; zero for one without area.
 Vec3 face_normal(const TriangleMesh& mesh, Index face);
 

@@ -337,6 +337,31 @@ std::vector<Vec3> Parametrisation::positions(const Patch& patch,
     return all;
 }
 
+std::array<double, 3> Parametrisation::weights_in_parent(const Patch& patch, Index triangle,
+                                                         const std::array<double, 3>& weights) const
+{
+    const auto& parent = patch.corners[parents[triangle]];
+    std::array<double, 3> sums{0, 0, 0};
+    const auto add = [&](Index vertex, double weight) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (parent[i] == vertex) {
+                sums[i] += weight;
+            }
+        }
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Index vertex = corners[triangle][i];
+        if (vertex < patch.vertices.size()) {
+            add(vertex, weights[i]);
+        } else {
+            const auto& [a, b] = splits[vertex - patch.vertices.size()];
+            add(a, weights[i] / 2);
+            add(b, weights[i] / 2);
+        }
+    }
+    return sums;
+}
+
 Result<Parametrisation> parametrise(const Patch& patch, std::span<const Vec3> positions,
                                     const Domain& domain, const ParametriseOptions& options)
 {
@@ -344,7 +369,11 @@ Result<Parametrisation> parametrise(const Patch& patch, std::span<const Vec3> po
     split_edges(patch, map);
     const std::vector<Vec3> all = map.positions(patch, positions);
     map.points.assign(all.size(), PlanePoint(0, 0));
-    place_boundary(patch, all, domain, map.points);
+    if (options.boundary.empty()) {
+        place_boundary(patch, all, domain, map.points);
+    } else {
+        std::copy(options.boundary.begin(), options.boundary.end(), map.points.begin());
+    }
     Placement placement(patch, map, all);
     const double domain_area = area(domain);
     if (minimise_stretch(placement, map, domain_area, options.stretch_rounds)) {

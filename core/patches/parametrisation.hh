@@ -29,6 +29,11 @@ struct Parametrisation {
 
     /// The positions of all vertices, from those of the refined mesh.
     std::vector<Vec3> positions(const Patch& patch, std::span<const Vec3> refined) const;
+
+    /// A point of a triangle, given as weights of its corners, as weights of the corners of the
+    /// patch's triangle that it is a part of.
+    std::array<double, 3> weights_in_parent(const Patch& patch, Index triangle,
+                                            const std::array<double, 3>& weights) const;
 };
 
 struct ParametriseOptions {
@@ -36,6 +41,9 @@ struct ParametriseOptions {
     /// Belyaev, Seidel, "A fast and simple stretch-minimizing mesh parameterization", 2004). 0:
     /// mean-value coordinates as they are.
     Index stretch_rounds = 8;
+    /// Where the boundary vertices go, on the sides of the domain and in their order; empty for
+    /// places by arc length.
+    std::span<const PlanePoint> boundary{};
 };
 
 /// Maps a patch onto `domain`, which has one corner per side of the patch: boundary vertices go to
