@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "base/result.hh"
+#include "layout/layout.hh"
+#include "maps/map_distortion.hh"
+#include "maps/overlay.hh"
+#include "maps/placed_target.hh"
+
+namespace layout_embedding {
+
+struct SurfaceMapOptions {
+    /// Rounds of optimisation (maps/map_optimisation.hh); 0 leaves the maps of the patches as they
+    /// are.
+    Index rounds = 20;
+};
+
+/// A layout's embedding in a target, with its landmarks.
+struct MappedTarget {
+    EmbeddedTarget embedded;
+    /// Target vertex per layout vertex.
+    std::vector<Index> landmarks;
+};
+
+/// A one-to-one piecewise linear map between two targets of the same layout, through a domain per
+/// layout face (paper, Sec. 5.3): its homotopy class is that of the embeddings. Targets are called
+/// a (0) and b (1).
+class SurfaceMap {
+public:
+    /// Maps the patches of two embeddings that check_embedding() accepts onto common domains,
+    /// lowers the map's distortion, and confirms it by check_maps(). Errors: parametrisationFailed;
+    /// internal, if the check refuses the map.
+    static Result<SurfaceMap> make(std::shared_ptr<const Layout> layout, MappedTarget a,
+                                   MappedTarget b, const SurfaceMapOptions& options = {});
+
+    const Layout& layout() const { return *layout_; }
+    const PlacedTarget& placed(std::size_t side) const { return placed_[side]; }
+    /// The image on the other target of a point of target `side`; face kNone where that lies
+    /// outside of all patches (a layout with boundary).
+    SurfacePoint image(std::size_t side, const SurfacePoint& point) const;
+    /// The images of all vertices of target `side`, landmarks exactly.
+    const std::vector<SurfacePoint>& vertex_images(std::size_t side) const
+    {
+        return vertex_images_[side];
+    }
+    const Overlay& overlay() const { return overlay_; }
+    const MapDistortion& distortion() const { return distortion_; }
+    /// Before optimisation.
+    const MapDistortion& first_distortion() const { return first_distortion_; }
+
+private:
+    void find_vertex_images(const std::vector<Index>& landmarks_a,
+                            const std::vector<Index>& landmarks_b);
+
+    std::shared_ptr<const Layout> layout_;
+    std::vector<PlacedTarget> placed_;
+    std::array<std::vector<SurfacePoint>, 2> vertex_images_;
+    Overlay overlay_;
+    MapDistortion distortion_;
+    MapDistortion first_distortion_;
+};
+
+}  // namespace layout_embedding

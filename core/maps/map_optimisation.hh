@@ -1,0 +1,33 @@
+#pragma once
+
+#include "layout/layout.hh"
+#include "maps/placed_target.hh"
+
+namespace layout_embedding {
+
+/// Lowers the symmetric Dirichlet energy (MapDistortion::mean_energy) of the map between two
+/// targets that are placed on the same domains: vertices of either target's maps are moved one
+/// after the other, those on chains along their side of the domains, in both patches beside it.
+/// Landmarks stay, chains of one target stay on those of the other one.
+///
+/// Every move is a Newton step cut back until it lowers the energy of the triangles around the
+/// vertex, taken at sample points, and keeps all of them positively oriented, exactly: the map is
+/// one-to-one at any time. Deterministic, in scalar operations of a fixed order. O(#vertices) per
+/// round.
+class MapOptimisation {
+public:
+    /// All must outlive this.
+    MapOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b);
+
+    /// Moves all vertices of target b, then all of target a.
+    void round();
+
+private:
+    void move_all(std::size_t side);
+
+    const Layout& layout_;
+    std::array<PlacedTarget*, 2> targets_;
+    double scale_ = 1;  // squared lengths on b are multiplied by this
+};
+
+}  // namespace layout_embedding
