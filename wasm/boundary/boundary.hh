@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "apps/embed_job.hh"
+#include "apps/surface_map.hh"
 #include "base/error.hh"
 #include "embedding/checker.hh"
 #include "embedding/refined_mesh.hh"
@@ -69,6 +70,12 @@ struct LandmarksObject {
 
 struct JobObject {
     EmbedJob job;
+};
+
+/// An embedding that is kept whatever becomes of its job.
+struct EmbeddingObject {
+    std::shared_ptr<const Layout> layout;
+    MappedTarget target;
 };
 
 /// A claimed embedding on its way to the checker, and the verdict.

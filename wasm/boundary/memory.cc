@@ -94,7 +94,8 @@ BOUNDARY_EXPORT(boundary_destroy) void boundary_destroy(std::uint32_t handle)
         handles<TargetObject>().destroy(handle) || handles<LandmarksObject>().destroy(handle) ||
         handles<JobObject>().destroy(handle) || handles<CheckObject>().destroy(handle) ||
         handles<ReferenceInput>().destroy(handle) || handles<QuadMesh>().destroy(handle) ||
-        handles<LandmarkDrag>().destroy(handle);
+        handles<LandmarkDrag>().destroy(handle) || handles<EmbeddingObject>().destroy(handle) ||
+        handles<SurfaceMap>().destroy(handle);
 }
 
 /// Views the name of the last error's code.

@@ -2,11 +2,13 @@
 // The command line, `layout-embedding`: finds the command, runs it, and turns its outcome into
 // output and an exit code. Node only.
 import { parseCommand, wantsJson } from "./cli/arguments.js";
+import { runBatch } from "./cli/batch_command.js";
 import { runCheck } from "./cli/check_command.js";
 import { runConvert } from "./cli/convert_command.js";
 import { runEmbed } from "./cli/embed_command.js";
 import { helpText } from "./cli/help.js";
 import { runLayout } from "./cli/layout_command.js";
+import { runMap } from "./cli/map_command.js";
 import { exitCodeOf, type Outcome } from "./cli/outcome.js";
 import { asLayoutError } from "./errors.js";
 import { version } from "./index.js";
@@ -28,6 +30,10 @@ async function run(args: string[]): Promise<Outcome> {
             return runLayout(command);
         case "convert":
             return runConvert(command);
+        case "map":
+            return runMap(command);
+        case "batch":
+            return runBatch(command);
     }
 }
 

@@ -3,7 +3,7 @@
 import type * as WorkerThreads from "node:worker_threads";
 import { javaScriptError, LayoutError } from "./errors.js";
 import type { Reply, Request, SessionMethod } from "./protocol.js";
-import { embedIn, templateIn } from "./sugar.js";
+import { embedIn, mapIn, templateIn } from "./sugar.js";
 import type {
     CandidatePaths,
     DraggedPaths,
@@ -28,6 +28,10 @@ import type {
     QuadOptions,
     QualityReport,
     SolveOptions,
+    SurfaceMap,
+    SurfaceMapOptions,
+    SurfaceMapProblem,
+    SurfacePoints,
     TargetInfo,
     TemplateLayout,
     TemplateOptions,
@@ -114,6 +118,19 @@ export class EmbeddingWorker {
             return await embedIn(session, problem, options);
         } finally {
             // A terminated worker has no session left to dispose of.
+            await session.dispose().catch(() => undefined);
+        }
+    }
+
+    /** Maps two targets of a layout, as mapSurfaces() of the package does, but in the worker. */
+    async mapSurfaces(
+        problem: SurfaceMapProblem,
+        options: EmbedOptions & SurfaceMapOptions = {},
+    ): Promise<SurfaceMap> {
+        const session = await this.createSession();
+        try {
+            return await mapIn(session, problem, options);
+        } finally {
             await session.dispose().catch(() => undefined);
         }
     }
@@ -275,6 +292,18 @@ class WorkerSession implements EmbeddingSession {
 
     quads(options: QuadOptions = {}): Promise<QuadMesh> {
         return this.call("quads", [options]) as Promise<QuadMesh>;
+    }
+
+    setReference(): Promise<void> {
+        return this.call("setReference", []) as Promise<void>;
+    }
+
+    mapFromReference(options: SurfaceMapOptions = {}): Promise<SurfaceMap> {
+        return this.call("mapFromReference", [options]) as Promise<SurfaceMap>;
+    }
+
+    mapPoints(from: "reference" | "target", points: SurfacePoints): Promise<SurfacePoints> {
+        return this.call("mapPoints", [from, points]) as Promise<SurfacePoints>;
     }
 
     qualityReport(): Promise<QualityReport> {

@@ -33,6 +33,16 @@ export const javaScriptErrors = [
         advice: "solve first",
     },
     {
+        code: "noEmbedding",
+        meaning: "the layout was not embedded in a target",
+        advice: "check its landmarks or raise the limits",
+    },
+    {
+        code: "noReference",
+        meaning: "there is no reference to map from, or no map yet",
+        advice: "solve, call setReference(), solve with another target, then map",
+    },
+    {
         code: "disposed",
         meaning: "the session was disposed of",
         advice: "create another session",

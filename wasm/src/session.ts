@@ -15,6 +15,7 @@ import {
 import { exportJob } from "./formats.js";
 import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
+import { imagesOf, keepEmbedding, makeMap, readMap } from "./maps.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
 import { makeQuads } from "./quads.js";
 import { qualityReport } from "./quality.js";
@@ -39,6 +40,9 @@ import type {
     QuadOptions,
     QualityReport,
     SolveOptions,
+    SurfaceMap,
+    SurfaceMapOptions,
+    SurfacePoints,
     TargetInfo,
     TemplateLayout,
     TemplateOptions,
@@ -75,6 +79,9 @@ export class Session implements EmbeddingSession {
     private solved: Solved | null = null;
     /** Of a landmark of the last embedding. */
     private drag: LandmarkDrag | null = null;
+    /** An embedding kept in the core, and the last map from it. */
+    private reference: Handle | null = null;
+    private map: Handle | null = null;
     private disposed = false;
 
     private constructor(private readonly core: Core) {}
@@ -95,6 +102,8 @@ export class Session implements EmbeddingSession {
         this.forget(this.layout);
         this.layout = loaded;
         this.landmarks = null;
+        // Maps are between embeddings of one layout.
+        this.forgetReference();
         return info;
     }
 
@@ -268,6 +277,33 @@ export class Session implements EmbeddingSession {
         return Promise.resolve(makeQuads(this.core, this.embeddedJob(), options));
     }
 
+    async setReference(): Promise<void> {
+        const reference = keepEmbedding(this.core, this.embeddedJob());
+        this.forgetReference();
+        this.reference = reference;
+        return Promise.resolve();
+    }
+
+    async mapFromReference(options: SurfaceMapOptions = {}): Promise<SurfaceMap> {
+        const { core, reference } = this;
+        const job = this.embeddedJob();
+        if (reference === null) {
+            throw javaScriptError("noReference", "no embedding has been made the reference");
+        }
+        const map = makeMap(core, reference, job, options);
+        core.destroy(this.map);
+        this.map = map;
+        return Promise.resolve(readMap(core, map));
+    }
+
+    async mapPoints(from: "reference" | "target", points: SurfacePoints): Promise<SurfacePoints> {
+        this.assertAlive();
+        if (this.map === null) {
+            throw javaScriptError("noReference", "no map has been made");
+        }
+        return Promise.resolve(imagesOf(this.core, this.map, from, points));
+    }
+
     async qualityReport(): Promise<QualityReport> {
         const job = this.embeddedJob();
         const edges = (this.solved?.layoutEdges.length ?? 0) / 2;
@@ -314,6 +350,7 @@ export class Session implements EmbeddingSession {
             this.disposed = true;
             this.endDrag();
             this.core.destroy(this.solved?.job ?? null);
+            this.forgetReference();
             this.forget(this.layout);
             this.forget(this.target);
         }
@@ -503,6 +540,13 @@ export class Session implements EmbeddingSession {
     private forget(loaded: Loaded | null): void {
         this.core.destroy(loaded?.surface ?? null);
         this.core.destroy(loaded?.mesh.handle ?? null);
+    }
+
+    private forgetReference(): void {
+        this.core.destroy(this.map);
+        this.core.destroy(this.reference);
+        this.map = null;
+        this.reference = null;
     }
 
     private assertAlive(): void {

@@ -1,9 +1,13 @@
+import { javaScriptError } from "./errors.js";
 import type {
     EmbeddingSession,
     EmbedOptions,
     EmbedProblem,
     EmbedResult,
     LoadOptions,
+    SurfaceMap,
+    SurfaceMapOptions,
+    SurfaceMapProblem,
     TemplateLayout,
     TemplateOptions,
     TemplateProblem,
@@ -23,6 +27,38 @@ export async function embedIn(
         await session.setLandmarks(problem.landmarks);
     }
     return session.solve(solveOptions);
+}
+
+/**
+ * One map from beginning to end in a fresh session of either kind. Rejects with noEmbedding where
+ * the layout was not embedded in both targets.
+ */
+export async function mapIn(
+    session: EmbeddingSession,
+    problem: SurfaceMapProblem,
+    options: EmbedOptions & SurfaceMapOptions,
+): Promise<SurfaceMap> {
+    const { repair, rounds, ...solveOptions } = options;
+    const load = { repair: repair === true };
+    await session.loadLayout(problem.layout, load);
+    for (const role of ["reference", "target"] as const) {
+        const { target, landmarks } = problem[role];
+        await session.loadTarget(target, load);
+        if (landmarks !== undefined) {
+            await session.setLandmarks(landmarks);
+        }
+        const { refined, status } = await session.solve(solveOptions);
+        if (refined === null) {
+            throw javaScriptError(
+                "noEmbedding",
+                `the layout was not embedded in the ${role} (${status})`,
+            );
+        }
+        if (role === "reference") {
+            await session.setReference();
+        }
+    }
+    return session.mapFromReference(rounds === undefined ? {} : { rounds });
 }
 
 /** One template layout in a fresh session of either kind. */

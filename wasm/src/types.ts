@@ -465,6 +465,63 @@ export interface DraggedPaths {
     paths: Polylines;
 }
 
+/** Points of a triangle mesh. */
+export interface SurfacePoints {
+    /** Per point: a face, -1 for no point. */
+    faces: Int32Array;
+    /** Per point: 3 barycentric coordinates, in the order of the face's corners. */
+    barycentrics: Float64Array;
+}
+
+export interface SurfaceMapOptions {
+    /** Rounds of optimisation at most; 0 leaves the maps of the patches as they are. Default: 20. */
+    rounds?: number;
+}
+
+/**
+ * How far a map is from an isometry, both targets scaled to area 1; means are over the area of the
+ * reference.
+ */
+export interface MapDistortion {
+    /** Symmetric Dirichlet energy, |J|^2 + |J^-1|^2: 4 for an isometry, else more. */
+    meanEnergy: number;
+    largestEnergy: number;
+    /** Ratio of the larger to the smaller singular value: 1 where angles are kept. */
+    meanConformal: number;
+    /** Ratio of areas, the larger one over the smaller: 1 where areas are kept. */
+    meanArea: number;
+}
+
+/**
+ * A one-to-one map between the reference and another target of the same layout, piecewise linear
+ * on the overlay of both meshes.
+ */
+export interface SurfaceMap {
+    /** Per vertex of the reference its image on the target. */
+    fromReference: SurfacePoints;
+    /** Per vertex of the target its image on the reference. */
+    toReference: SurfacePoints;
+    /** The common refinement of both meshes: each triangle lies in one face of either. */
+    overlay: {
+        /** 3 vertex ids per triangle, counter-clockwise. */
+        corners: Uint32Array;
+        /** The layout face of each triangle. */
+        patches: Uint32Array;
+        /** The face of the reference and of the target that each triangle lies in. */
+        referenceFaces: Uint32Array;
+        targetFaces: Uint32Array;
+        /** 9 numbers per triangle: the barycentric coordinates of its corners in that face. */
+        referenceWeights: Float64Array;
+        targetWeights: Float64Array;
+        /** 3 coordinates per vertex: where it lies on the reference and on the target. */
+        referencePositions: Float64Array;
+        targetPositions: Float64Array;
+    };
+    distortion: MapDistortion;
+    /** Before optimisation. */
+    firstDistortion: MapDistortion;
+}
+
 /** How good the paths and patches of an embedding are, in the target's units. */
 export interface QualityReport {
     /** Per layout edge. */
@@ -583,6 +640,21 @@ export interface EmbeddingSession {
     ): Promise<Record<string, Uint8Array>>;
     /** A quad mesh whose base complex is the last embedding. */
     quads(options?: QuadOptions): Promise<QuadMesh>;
+    /**
+     * Keeps the last embedding as the reference for mapFromReference(), until another layout is
+     * loaded. Load the next target, set its landmarks and solve then.
+     */
+    setReference(): Promise<void>;
+    /**
+     * Maps the reference onto the target of the last embedding, one to one and in the homotopy class
+     * of the two embeddings. Rejected with noReference where there is none.
+     */
+    mapFromReference(options?: SurfaceMapOptions): Promise<SurfaceMap>;
+    /**
+     * The images of points under the last map: of points of the reference on the target, or the other
+     * way round. Rejected with noReference where there is no map.
+     */
+    mapPoints(from: "reference" | "target", points: SurfacePoints): Promise<SurfacePoints>;
     /** How good the last embedding is. */
     qualityReport(): Promise<QualityReport>;
     /**
@@ -608,6 +680,71 @@ export interface EmbeddingSession {
 export interface TemplateProblem {
     target: MeshInput;
     landmarks: LandmarkInput;
+}
+
+/** A target of a batch. */
+export interface BatchMember {
+    /** Different from all others. */
+    name: string;
+    /** Called when it is its turn; may reject. */
+    load: () => Promise<{ target: MeshInput; landmarks: LandmarkInput }>;
+}
+
+export interface BatchOptions extends LoadOptions {
+    solve?: Omit<SolveOptions, "signal" | "onProgress">;
+    /** Numbers of segments follow from the reference. */
+    quads?: Omit<QuadOptions, "segments">;
+    map?: SurfaceMapOptions;
+    /**
+     * The member that all others are mapped from. Default: the first one that is embedded. While
+     * there is none, members are embedded and get quads of their own.
+     */
+    reference?: string | null;
+    signal?: AbortSignal;
+    /** The row of a member that was done before, or null; it is not done again. */
+    known?: (name: string) => BatchRow | null;
+    /** Called after each member; products are null where it failed. */
+    onMember?: (row: BatchRow, products: BatchProducts | null) => void | Promise<void>;
+}
+
+/** What is known of a member, as far as it came; energies etc. as in MapDistortion. */
+export interface BatchRow {
+    name: string;
+    isReference: boolean;
+    error: { code: string; message: string } | null;
+    vertexCount?: number;
+    status?: EmbedStatus;
+    cost?: number;
+    lowerBound?: number;
+    gap?: number;
+    /** Of all chains, on the surface. */
+    length?: number;
+    /** CPU seconds of the embedding. */
+    seconds?: number;
+    quads?: number;
+    flippedQuads?: number;
+    leastJacobian?: number;
+    meanJacobian?: number;
+    /** Before and after optimisation. */
+    firstEnergy?: number;
+    energy?: number;
+    conformal?: number;
+    area?: number;
+}
+
+/** What was made of a member; no map for the reference. */
+export interface BatchProducts {
+    result: EmbedResult;
+    files: ExportedFiles;
+    quads: QuadMesh;
+    map: SurfaceMap | null;
+}
+
+/** What mapSurfaces() maps onto each other: two targets of one layout. */
+export interface SurfaceMapProblem {
+    layout: MeshInput;
+    reference: { target: MeshInput; landmarks?: LandmarkInput };
+    target: { target: MeshInput; landmarks?: LandmarkInput };
 }
 
 /** What embed() embeds where. */

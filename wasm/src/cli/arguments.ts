@@ -10,6 +10,7 @@ import type {
     PathShape,
     QuadOptions,
     SolveOptions,
+    SurfaceMapOptions,
 } from "../types.js";
 
 export interface EmbedCommand {
@@ -58,13 +59,44 @@ export interface LayoutCommand {
     json: boolean;
 }
 
+export interface MapCommand {
+    name: "map";
+    layout: string;
+    targets: [string, string];
+    /** Per target; null for landmarks by proximity. */
+    landmarks: [string | null, string | null];
+    output: string;
+    repair: boolean;
+    quiet: boolean;
+    json: boolean;
+    solve: SolveOptions;
+    map: SurfaceMapOptions;
+}
+
+export interface BatchCommand {
+    name: "batch";
+    layout: string;
+    folder: string;
+    output: string;
+    /** The member that all others are mapped from; null for the first one that is embedded. */
+    reference: string | null;
+    repair: boolean;
+    quiet: boolean;
+    json: boolean;
+    solve: SolveOptions;
+    quads: QuadOptions;
+    map: SurfaceMapOptions;
+}
+
 export type Command =
     | { name: "help" }
     | { name: "version" }
     | EmbedCommand
     | CheckCommand
     | LayoutCommand
-    | ConvertCommand;
+    | ConvertCommand
+    | MapCommand
+    | BatchCommand;
 
 const commonOptions = {
     help: { type: "boolean" },
@@ -73,8 +105,8 @@ const commonOptions = {
     json: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
 
-const embedOptions = {
-    ...commonOptions,
+/** Those of a search and of the paths' shape. */
+const solveOptions = {
     algorithm: { type: "string" },
     gap: { type: "string" },
     "time-limit": { type: "string" },
@@ -82,6 +114,13 @@ const embedOptions = {
     "memory-limit": { type: "string" },
     seed: { type: "string" },
     shape: { type: "string" },
+} as const satisfies ParseArgsConfig["options"];
+
+type SolveValues = ReturnType<typeof parseArgs<{ options: typeof solveOptions }>>["values"];
+
+const embedOptions = {
+    ...commonOptions,
+    ...solveOptions,
     output: { type: "string" },
     format: { type: "string", multiple: true },
     view: { type: "string" },
@@ -96,6 +135,30 @@ const quadOptions = {
     "edge-length": { type: "string" },
     segments: { type: "string", multiple: true },
     relaxation: { type: "string" },
+} as const satisfies ParseArgsConfig["options"];
+
+const mapOptions = {
+    ...solveOptions,
+    help: { type: "boolean" },
+    "landmarks-a": { type: "string" },
+    "landmarks-b": { type: "string" },
+    output: { type: "string" },
+    rounds: { type: "string" },
+    repair: { type: "boolean" },
+    quiet: { type: "boolean" },
+    json: { type: "boolean" },
+} as const satisfies ParseArgsConfig["options"];
+
+const batchOptions = {
+    ...solveOptions,
+    help: { type: "boolean" },
+    output: { type: "string" },
+    reference: { type: "string" },
+    "edge-length": { type: "string" },
+    rounds: { type: "string" },
+    repair: { type: "boolean" },
+    quiet: { type: "boolean" },
+    json: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
 
 const convertOptions = {
@@ -134,6 +197,10 @@ export function parseCommand(args: string[]): Command {
             return parseLayout(rest);
         case "convert":
             return parseConvert(rest);
+        case "map":
+            return parseMap(rest);
+        case "batch":
+            return parseBatch(rest);
         case "--help":
         case "-h":
         case "help":
@@ -192,17 +259,7 @@ function embedCommand(
     if (formats.length > 0 && values.output === undefined) {
         throw javaScriptError("usage", "--format needs --output DIR");
     }
-    const solve: SolveOptions = {
-        ...given("algorithm", values.algorithm as Algorithm | undefined),
-        ...given("gap", number("--gap", values.gap)),
-        ...given("timeLimit", number("--time-limit", values["time-limit"])),
-        ...given("workLimit", number("--work-limit", values["work-limit"])),
-        ...given("memoryLimit", number("--memory-limit", values["memory-limit"], 1e6)),
-        ...given("shape", values.shape as PathShape | undefined),
-        ...given("seed", number("--seed", values.seed)),
-    };
-    // Wrong values are found before any file is read.
-    jobOptions(solve);
+    const solve = solveValues(values);
     return {
         name: "embed",
         layout,
@@ -217,6 +274,62 @@ function embedCommand(
         quiet: values.quiet === true,
         json: values.json === true,
         solve,
+    };
+}
+
+/** The options of a search; wrong values are found before any file is read. */
+function solveValues(values: SolveValues): SolveOptions {
+    const solve: SolveOptions = {
+        ...given("algorithm", values.algorithm as Algorithm | undefined),
+        ...given("gap", number("--gap", values.gap)),
+        ...given("timeLimit", number("--time-limit", values["time-limit"])),
+        ...given("workLimit", number("--work-limit", values["work-limit"])),
+        ...given("memoryLimit", number("--memory-limit", values["memory-limit"], 1e6)),
+        ...given("shape", values.shape as PathShape | undefined),
+        ...given("seed", number("--seed", values.seed)),
+    };
+    jobOptions(solve);
+    return solve;
+}
+
+function parseMap(args: string[]): Command {
+    const { values, positionals } = parsed({ args, options: mapOptions, allowPositionals: true });
+    if (values.help) {
+        return { name: "help" };
+    }
+    const [layout, a, b] = paths(positionals, ["LAYOUT", "TARGET_A", "TARGET_B"]);
+    return {
+        name: "map",
+        layout,
+        targets: [a, b],
+        landmarks: [values["landmarks-a"] ?? null, values["landmarks-b"] ?? null],
+        output: needed("--output DIR", values.output),
+        repair: values.repair === true,
+        quiet: values.quiet === true,
+        json: values.json === true,
+        solve: solveValues(values),
+        map: given("rounds", number("--rounds", values.rounds)),
+    };
+}
+
+function parseBatch(args: string[]): Command {
+    const { values, positionals } = parsed({ args, options: batchOptions, allowPositionals: true });
+    if (values.help) {
+        return { name: "help" };
+    }
+    const [layout, folder] = paths(positionals, ["LAYOUT", "FOLDER"]);
+    return {
+        name: "batch",
+        layout,
+        folder,
+        output: needed("--output DIR", values.output),
+        reference: values.reference ?? null,
+        repair: values.repair === true,
+        quiet: values.quiet === true,
+        json: values.json === true,
+        solve: solveValues(values),
+        quads: given("edgeLength", number("--edge-length", values["edge-length"])),
+        map: given("rounds", number("--rounds", values.rounds)),
     };
 }
 

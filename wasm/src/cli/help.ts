@@ -5,6 +5,13 @@ Usage
                                                    or GLB); or the files that an .inp file names
   layout-embedding quads LAYOUT TARGET --output DIR [options]
                                                    embed, and write a quad mesh, quads.obj, too
+  layout-embedding map LAYOUT TARGET_A TARGET_B --landmarks-a FILE --landmarks-b FILE --output DIR
+                                                   embed in both and map them onto each other
+  layout-embedding batch LAYOUT FOLDER --output DIR [options]
+                                                   embed in every mesh of FOLDER that has a
+                                                   landmark file of its name; quads, and maps from
+                                                   one of them; run again, it goes on where it
+                                                   stopped
   layout-embedding check DIR LAYOUT TARGET         check what embed wrote to DIR
   layout-embedding layout TARGET --landmarks FILE --output LAYOUT.obj [options]
                                                    make a layout by collapsing TARGET's edges
@@ -46,6 +53,21 @@ Options of quads, beside those of embed
   --edge-length X      wanted length of the quads' edges (default: about 4000 quads)
   --segments LIST      EDGE=N,...: numbers of segments of layout edges, which rule whole loops
   --relaxation N       rounds of relaxation on the surface (default 30)
+
+Options of map, beside those of embed on searches and shapes
+  --landmarks-a FILE, --landmarks-b FILE
+                       the landmarks on either target (default: by proximity)
+  --output DIR         write map.json (images of all vertices, in both directions), overlay_a.obj and
+                       overlay_b.obj (the common refinement on either target, with the texture
+                       coordinates of TARGET_A), and both embeddings to a/ and b/
+  --rounds N           rounds of optimisation at most (default 20)
+
+Options of batch, beside those of embed on searches and shapes
+  --output DIR         write summary.csv and summary.json there, and a folder per member
+  --reference NAME     the member that all others are mapped from (default: the first one)
+  --edge-length X      wanted length of the quads' edges on the reference; all members get the same
+                       connectivity
+  --rounds N           as for map
 
 Options of layout
   --output LAYOUT.obj  the file to write; its vertices are the landmarks, in their order

@@ -40,7 +40,7 @@ export function exitCodeOf(errorCode: string): number {
     if (errorCode === "damagedOutput") {
         return exitCodes.refused;
     }
-    if (errorCode === "templateNotReached") {
+    if (errorCode === "templateNotReached" || errorCode === "noEmbedding") {
         return exitCodes.noneFound;
     }
     return ourFault.has(errorCode) ? exitCodes.internal : exitCodes.badInput;
