@@ -3,13 +3,14 @@
 #include "maps/exact_location.hh"
 #include "maps/map_checker.hh"
 #include "maps/map_optimisation.hh"
+#include "maps/seam_optimisation.hh"
 
 namespace layout_embedding {
 namespace {
 
 /// Optimisation ends where a round lowers the energy by less than this share of what it exceeds an
 /// isometry by.
-constexpr double kLeastGain = 1e-3;
+constexpr double kLeastEnergyGain = 1e-3;
 constexpr double kIsometry = 4;
 
 }  // namespace
@@ -47,23 +48,48 @@ Result<SurfaceMap> SurfaceMap::make(std::shared_ptr<const Layout> layout, Mapped
     map.overlay_ = std::move(*made);
     map.distortion_ = map_distortion(map.placed_[0], map.placed_[1], map.overlay_);
     map.first_distortion_ = map.distortion_;
-    for (Index round = 0; round < options.rounds; ++round) {
+    const auto keep_if_better = [&](std::vector<PlacedTarget> moved) -> Result<double> {
+        auto laid = layout_embedding::overlay(*map.layout_, moved[0], moved[1]);
+        if (!laid) {
+            return laid.error();
+        }
+        const MapDistortion distortion = map_distortion(moved[0], moved[1], *laid);
+        const double gain = map.distortion_.mean_energy - distortion.mean_energy;
+        if (gain > 0) {
+            map.placed_ = std::move(moved);
+            map.overlay_ = std::move(*laid);
+            map.distortion_ = distortion;
+        }
+        return gain;
+    };
+    const auto improve_maps = [&]() -> Status {
+        for (Index round = 0; round < options.rounds; ++round) {
+            std::vector<PlacedTarget> moved = map.placed_;
+            MapOptimisation(*map.layout_, moved[0], moved[1]).round();
+            const double excess = map.distortion_.mean_energy - kIsometry;
+            const auto gain = keep_if_better(std::move(moved));
+            if (!gain) {
+                return gain.error();
+            }
+            if (!(*gain > kLeastEnergyGain * excess)) {
+                break;
+            }
+        }
+        return {};
+    };
+    if (const Status status = improve_maps(); !status) {
+        return status.error();
+    }
+    for (Index pass = 0; pass < options.seam_passes; ++pass) {
         std::vector<PlacedTarget> moved = map.placed_;
-        MapOptimisation(*map.layout_, moved[0], moved[1]).round();
-        made = layout_embedding::overlay(*map.layout_, moved[0], moved[1]);
-        if (!made) {
-            return made.error();
-        }
-        const MapDistortion distortion = map_distortion(moved[0], moved[1], *made);
-        const double before = map.distortion_.mean_energy;
-        if (!(distortion.mean_energy < before)) {
+        if (SeamOptimisation(*map.layout_, moved[0], moved[1]).pass() == 0) {
             break;
         }
-        map.placed_ = std::move(moved);
-        map.overlay_ = std::move(*made);
-        map.distortion_ = distortion;
-        if (before - distortion.mean_energy < kLeastGain * (before - kIsometry)) {
-            break;
+        if (const auto gain = keep_if_better(std::move(moved)); !gain) {
+            return gain.error();
+        }
+        if (const Status status = improve_maps(); !status) {
+            return status.error();
         }
     }
     const CheckReport report =

@@ -13,9 +13,12 @@
 namespace layout_embedding {
 
 struct SurfaceMapOptions {
-    /// Rounds of optimisation (maps/map_optimisation.hh); 0 leaves the maps of the patches as they
-    /// are.
+    /// Rounds of optimisation at most (maps/map_optimisation.hh); 0 leaves the maps of the patches
+    /// as they are.
     Index rounds = 20;
+    /// How often all paths are moved at most (maps/seam_optimisation.hh), each time followed by
+    /// such rounds; 0 keeps the paths of the embeddings.
+    Index seam_passes = 2;
 };
 
 /// A layout's embedding in a target, with its landmarks.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace layout_embedding {
 namespace {
@@ -27,6 +28,26 @@ Matrix2 to_domain_map(const Vec3& a, const Vec3& b, const Vec3& c, const PlanePo
     map.col(0) = p / width;
     map.col(1) = (q - along / width * p) / height;
     return map;
+}
+
+double patch_energy(const PlacedPatch& a, const std::vector<Vec3>& positions_a,
+                    const PlacedPatch& b, const std::vector<Vec3>& positions_b, double scale)
+{
+    const auto map_of = [](const PlacedPatch& placed, const std::vector<Vec3>& x, Index triangle) {
+        const auto& c = placed.map.corners[triangle];
+        const std::vector<PlanePoint>& p = placed.map.points;
+        return to_domain_map(x[c[0]], x[c[1]], x[c[2]], p[c[0]], p[c[1]], p[c[2]]);
+    };
+    const std::vector<OverlayPiece> pieces = overlay_pieces(a, b);
+    double sum = pieces.empty() ? std::numeric_limits<double>::infinity() : 0;
+    for (const OverlayPiece& piece : pieces) {
+        const Matrix2 from = map_of(a, positions_a, piece.map_triangles[0]);
+        const Matrix2 jacobian = map_of(b, positions_b, piece.map_triangles[1]).inverse() * from;
+        const double determinant = scale * jacobian.determinant();
+        sum += std::max(piece.domain_area, 0.0) / from.determinant() * scale *
+               jacobian.squaredNorm() * (1 + 1 / (determinant * determinant));
+    }
+    return sum;
 }
 
 MapDistortion map_distortion(const PlacedTarget& a, const PlacedTarget& b, const Overlay& overlay)

@@ -19,6 +19,11 @@ struct MapDistortion {
 
 MapDistortion map_distortion(const PlacedTarget& a, const PlacedTarget& b, const Overlay& overlay);
 
+/// The integral over target a of the energy of the map of one layout face's patches; squared
+/// lengths on b times `scale`. Infinite where the maps do not lie over each other.
+double patch_energy(const PlacedPatch& a, const std::vector<Vec3>& positions_a,
+                    const PlacedPatch& b, const std::vector<Vec3>& positions_b, double scale);
+
 /// A 2 by 2 matrix.
 using Matrix2 = Eigen::Matrix2d;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "layout/layout.hh"
 #include "maps/placed_target.hh"
 
@@ -20,14 +22,21 @@ public:
     MapOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b);
 
     /// Moves all vertices of target b, then all of target a.
-    void round();
+    void round()
+    {
+        round(std::vector<bool>(layout_.face_count(), true),
+              std::vector<bool>(layout_.edge_count(), true));
+    }
+    /// The same in some layout faces, and on some edges, all of whose sides are in such faces.
+    void round(const std::vector<bool>& faces, const std::vector<bool>& edges);
 
 private:
-    void move_all(std::size_t side);
-
     const Layout& layout_;
     std::array<PlacedTarget*, 2> targets_;
-    double scale_ = 1;  // squared lengths on b are multiplied by this
+    double scale_;
 };
+
+/// The ratio of the areas of all patches of two targets.
+double area_ratio(const PlacedTarget& a, const PlacedTarget& b);
 
 }  // namespace layout_embedding

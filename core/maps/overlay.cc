@@ -176,7 +176,7 @@ private:
 };
 
 /// A node of the overlay of one patch.
-struct Node {
+struct OverlayNode {
     /// The vertices of the two maps that it is, kNone for a vertex of only one of them.
     std::array<Index, 2> vertices{kNone, kNone};
     /// The edges that cross here, where it is no vertex.
@@ -188,7 +188,7 @@ struct Node {
 };
 
 /// A piece of an edge between two nodes, as seen from one of them, with the triangles on its left.
-struct Dart {
+struct OverlayDart {
     Index from;
     Index to;
     /// An exact point in the direction of the dart.
@@ -213,7 +213,7 @@ public:
         return trace();
     }
 
-    const std::vector<Node>& nodes() const { return nodes_; }
+    const std::vector<OverlayNode>& nodes() const { return nodes_; }
     const std::vector<std::array<Index, 3>>& corners() const { return corners_; }
     const std::vector<std::array<Index, 2>>& triangles() const { return triangles_; }
     double area_of(const std::array<Index, 3>& c) const
@@ -242,7 +242,7 @@ private:
                     nodes_[node_of_[1][v]].vertices[1] = v;
                     continue;
                 }
-                Node node;
+                OverlayNode node;
                 node.point = to_plane(point);
                 node.vertices[side] = v;
                 // A triangle of its own map around it.
@@ -267,9 +267,9 @@ private:
         return place->second;
     }
 
-    Node crossing(Index edge_a, Index edge_b) const
+    OverlayNode crossing(Index edge_a, Index edge_b) const
     {
-        Node node;
+        OverlayNode node;
         node.edges = {edge_a, edge_b};
         std::array<std::array<GridPoint, 2>, 2> ends;
         std::array<Index, 2> halfedges{};
@@ -337,7 +337,7 @@ private:
     }
 
     /// The exact place of a node that is a vertex.
-    const GridPoint& place_of(const Node& node) const
+    const GridPoint& place_of(const OverlayNode& node) const
     {
         return node.vertices[0] != kNone ? maps_[0].point(node.vertices[0])
                                          : maps_[1].point(node.vertices[1]);
@@ -351,9 +351,9 @@ private:
 
     /// Whether a comes before b around their node, counter-clockwise. At a crossing, where edges
     /// have no exact common point, directions are those of the edges themselves.
-    bool turns_before(const Dart& a, const Dart& b) const
+    bool turns_before(const OverlayDart& a, const OverlayDart& b) const
     {
-        const Node& node = nodes_[a.from];
+        const OverlayNode& node = nodes_[a.from];
         if (node.vertices[0] == kNone && node.vertices[1] == kNone) {
             return false;
         }
@@ -364,7 +364,7 @@ private:
     }
 
     /// The four darts of a crossing, counter-clockwise.
-    void order_crossing(Index node, std::vector<Dart>::iterator begin) const
+    void order_crossing(Index node, std::vector<OverlayDart>::iterator begin) const
     {
         // Edge a forwards comes first; b forwards is on its left or right.
         const std::array<Index, 2> h{mesh(0).halfedge(nodes_[node].edges[0]),
@@ -377,7 +377,7 @@ private:
         const std::array<GridPoint, 4> order =
             left ? std::array<GridPoint, 4>{a_to, b_to, a_from, b_from}
                  : std::array<GridPoint, 4>{a_to, b_from, a_from, b_to};
-        std::sort(begin, begin + 4, [&](const Dart& x, const Dart& y) {
+        std::sort(begin, begin + 4, [&](const OverlayDart& x, const OverlayDart& y) {
             return std::find(order.begin(), order.end(), x.towards) <
                    std::find(order.begin(), order.end(), y.towards);
         });
@@ -386,21 +386,23 @@ private:
     /// Sorts darts by node and around it, and makes those one that run along each other.
     void sort_darts()
     {
-        std::stable_sort(darts_.begin(), darts_.end(),
-                         [](const Dart& a, const Dart& b) { return a.from < b.from; });
-        std::vector<Dart> sorted;
+        std::stable_sort(
+            darts_.begin(), darts_.end(),
+            [](const OverlayDart& a, const OverlayDart& b) { return a.from < b.from; });
+        std::vector<OverlayDart> sorted;
         offsets_.assign(nodes_.size() + 1, 0);
         for (auto begin = darts_.begin(); begin != darts_.end();) {
             const Index node = begin->from;
-            const auto end = std::find_if(begin, darts_.end(),
-                                          [&](const Dart& dart) { return dart.from != node; });
+            const auto end = std::find_if(
+                begin, darts_.end(), [&](const OverlayDart& dart) { return dart.from != node; });
             if (nodes_[node].vertices[0] == kNone && nodes_[node].vertices[1] == kNone) {
                 if (end - begin == 4) {
                     order_crossing(node, begin);
                 }
             } else {
-                std::stable_sort(begin, end,
-                                 [&](const Dart& a, const Dart& b) { return turns_before(a, b); });
+                std::stable_sort(begin, end, [&](const OverlayDart& a, const OverlayDart& b) {
+                    return turns_before(a, b);
+                });
             }
             const std::size_t first = sorted.size();
             for (; begin != end; ++begin) {
@@ -514,17 +516,29 @@ private:
     }
 
     std::array<ExactLocation, 2> maps_;
-    std::vector<Node> nodes_;
+    std::vector<OverlayNode> nodes_;
     std::array<std::vector<Index>, 2> node_of_;      // per vertex of either map
     std::array<std::vector<ExactPlace>, 2> places_;  // per vertex of either map, in the other one
     std::map<std::pair<Index, Index>, Index> crossings_;
-    std::vector<Dart> darts_;
+    std::vector<OverlayDart> darts_;
     std::vector<Index> offsets_;  // per node
     std::vector<std::array<Index, 3>> corners_;
     std::vector<std::array<Index, 2>> triangles_;
 };
 
 }  // namespace
+
+std::vector<OverlayPiece> overlay_pieces(const PlacedPatch& a, const PlacedPatch& b)
+{
+    PatchOverlay patch(a, b);
+    std::vector<OverlayPiece> pieces;
+    if (patch.run()) {
+        for (std::size_t t = 0; t < patch.corners().size(); ++t) {
+            pieces.push_back({patch.triangles()[t], patch.area_of(patch.corners()[t])});
+        }
+    }
+    return pieces;
+}
 
 Result<Overlay> overlay(const Layout& layout, const PlacedTarget& a, const PlacedTarget& b)
 {
@@ -543,7 +557,7 @@ Result<Overlay> overlay(const Layout& layout, const PlacedTarget& a, const Place
                 {{"face", face}});
         }
         std::vector<Index> ids;
-        for (const Node& node : patch.nodes()) {
+        for (const OverlayNode& node : patch.nodes()) {
             Index* known = nullptr;
             for (std::size_t side = 0; side < 2 && known == nullptr; ++side) {
                 const Patch& own = placed[side]->patch;

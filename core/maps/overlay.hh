@@ -37,4 +37,12 @@ struct Overlay {
 /// PlacedPatch says). O((n + k) log k) for n triangles and k crossings.
 Result<Overlay> overlay(const Layout& layout, const PlacedTarget& a, const PlacedTarget& b);
 
+/// The pieces of the overlay of one layout face's patches: the triangle of either map, and the area
+/// in the domain. Empty where the maps do not lie over each other.
+struct OverlayPiece {
+    std::array<Index, 2> map_triangles;
+    double domain_area;
+};
+std::vector<OverlayPiece> overlay_pieces(const PlacedPatch& a, const PlacedPatch& b);
+
 }  // namespace layout_embedding

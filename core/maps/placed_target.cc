@@ -54,18 +54,6 @@ Error failed_patch(const Patch& patch, const std::string& what)
                       {{"face", patch.face}});
 }
 
-TriangleMesh plane_mesh(const Parametrisation& map)
-{
-    PolygonMesh polygons;
-    for (const PlanePoint& point : map.points) {
-        polygons.positions.emplace_back(point.x(), point.y(), 0);
-    }
-    for (const auto& corners : map.corners) {
-        polygons.add_face(corners);
-    }
-    return TriangleMesh(polygons);
-}
-
 /// The barycentric coordinates of p in a triangle given by barycentric coordinates of its corners.
 std::array<double, 3> coordinates_in(const std::array<std::array<double, 3>, 3>& corners,
                                      const std::array<double, 3>& p)
@@ -131,15 +119,15 @@ Result<std::vector<Domain>> common_domains(const Layout& layout,
         } else {
             domain = inscribed_polygon(sides);
         }
-        std::transform(domain.begin(), domain.end(), domain.begin(), snapped_corner);
-        if (!is_strictly_convex(domain)) {
+        auto on_grid = snapped(std::move(domain));
+        if (!on_grid) {
             return make_error(ErrorCode::parametrisationFailed,
                               "layout face " + std::to_string(face) + " has " +
                                   std::to_string(sides.size()) +
                                   " sides, too many for a domain of its own",
                               {{"face", face}});
         }
-        domains.push_back(std::move(domain));
+        domains.push_back(std::move(*on_grid));
     }
     return domains;
 }
@@ -167,29 +155,66 @@ ChainShares arc_length_shares(const RefinedMesh& refined, const std::vector<Inde
     return shares;
 }
 
-std::vector<GridPoint> boundary_points(const Layout& layout, const Patch& patch,
-                                       const Domain& domain, const std::vector<ChainShares>& shares)
+std::array<std::int64_t, 2> corner_steps(const Domain& domain, std::size_t corner)
 {
-    std::vector<GridPoint> points(patch.boundary_size());
-    const auto halfedges = layout.face_halfedges(patch.face);
-    const auto corner = [&](std::size_t i) {
-        const PlanePoint& p = domain[i % domain.size()];
-        return std::array<std::int64_t, 2>{static_cast<std::int64_t>(p.x() * kCornerSteps),
-                                           static_cast<std::int64_t>(p.y() * kCornerSteps)};
-    };
+    const PlanePoint& p = domain[corner % domain.size()];
+    return {static_cast<std::int64_t>(p.x() * kCornerSteps),
+            static_cast<std::int64_t>(p.y() * kCornerSteps)};
+}
+
+std::optional<Domain> snapped(Domain domain)
+{
+    std::transform(domain.begin(), domain.end(), domain.begin(), snapped_corner);
+    return is_strictly_convex(domain) ? std::optional(std::move(domain)) : std::nullopt;
+}
+
+std::vector<PlanePoint> boundary_points(std::span<const Index> halfedges, const Patch& patch,
+                                        const Domain& domain,
+                                        const std::vector<ChainShares>& shares)
+{
+    std::vector<PlanePoint> points(patch.boundary_size());
     for (Index side = 0; side < patch.side_count(); ++side) {
         const ChainShares& list = shares[Layout::edge(halfedges[side])];
-        const auto from = corner(side);
-        const auto to = corner(side + 1);
+        const auto from = corner_steps(domain, side);
+        const auto to = corner_steps(domain, side + 1);
         for (Index v = patch.sides[side]; v < patch.sides[side + 1]; ++v) {
             const std::size_t i = v - patch.sides[side];
             const std::int64_t share =
                 halfedges[side] % 2 == 0 ? list[i] : kWholeShare - list[list.size() - 1 - i];
-            points[v] = {from[0] * kWholeShare + share * (to[0] - from[0]),
-                         from[1] * kWholeShare + share * (to[1] - from[1])};
+            points[v] = to_plane({from[0] * kWholeShare + share * (to[0] - from[0]),
+                                  from[1] * kWholeShare + share * (to[1] - from[1])});
         }
     }
     return points;
+}
+
+TriangleMesh mesh_of_map(const Parametrisation& map)
+{
+    PolygonMesh polygons;
+    polygons.positions.resize(map.points.size(), Vec3(0, 0, 0));
+    for (const auto& corners : map.corners) {
+        polygons.add_face(corners);
+    }
+    return TriangleMesh(polygons);
+}
+
+Result<PlacedPatch> place_patch(Patch patch, std::span<const Vec3> positions, const Domain& domain,
+                                std::span<const PlanePoint> boundary)
+{
+    ParametriseOptions options;
+    options.boundary = boundary;
+    auto map = parametrise(patch, positions, domain, options);
+    if (!map) {
+        return map.error();
+    }
+    for (PlanePoint& point : map->points) {
+        point = to_plane(to_grid(point));
+    }
+    if (!is_positive(*map)) {
+        return failed_patch(patch, "is too long and thin for the plane grid");
+    }
+    TriangleMesh mesh = mesh_of_map(*map);
+    return PlacedPatch{std::move(patch), std::move(*map), std::move(mesh)};
 }
 
 bool is_positive(const Parametrisation& map)
@@ -204,36 +229,33 @@ Result<PlacedTarget> PlacedTarget::place(const Layout& layout, EmbeddedTarget em
                                          std::vector<Patch> patches,
                                          const std::vector<Domain>& domains)
 {
-    PlacedTarget placed;
-    placed.embedded_ = std::move(embedded);
-    placed.domains_ = domains;
-    const RefinedMesh& refined = *placed.embedded_.refined;
+    const RefinedMesh& refined = *embedded.refined;
+    std::vector<ChainShares> shares;
     for (const std::vector<Index>& chain : refined.chains) {
-        placed.shares_.push_back(arc_length_shares(refined, chain));
+        shares.push_back(arc_length_shares(refined, chain));
     }
+    std::vector<PlacedPatch> placed;
     for (Patch& patch : patches) {
         const Domain& domain = domains[patch.face];
-        std::vector<PlanePoint> boundary;
-        for (const GridPoint& point : boundary_points(layout, patch, domain, placed.shares_)) {
-            boundary.push_back(to_plane(point));
+        const auto boundary =
+            boundary_points(layout.face_halfedges(patch.face), patch, domain, shares);
+        auto made = place_patch(std::move(patch), refined.positions, domain, boundary);
+        if (!made) {
+            return made.error();
         }
-        ParametriseOptions options;
-        options.boundary = boundary;
-        auto map = parametrise(patch, refined.positions, domain, options);
-        if (!map) {
-            return map.error();
-        }
-        for (PlanePoint& point : map->points) {
-            point = to_plane(to_grid(point));
-        }
-        if (!is_positive(*map)) {
-            return failed_patch(patch, "is too long and thin for the plane grid");
-        }
-        TriangleMesh mesh = plane_mesh(*map);
-        placed.patches_.push_back({std::move(patch), std::move(*map), std::move(mesh)});
+        placed.push_back(std::move(*made));
     }
-    placed.find_triangles_of_faces();
-    return placed;
+    return PlacedTarget(std::move(embedded), domains, std::move(placed), std::move(shares));
+}
+
+PlacedTarget::PlacedTarget(EmbeddedTarget embedded, std::vector<Domain> domains,
+                           std::vector<PlacedPatch> patches, std::vector<ChainShares> shares)
+    : embedded_(std::move(embedded)),
+      domains_(std::move(domains)),
+      patches_(std::move(patches)),
+      shares_(std::move(shares))
+{
+    find_triangles_of_faces();
 }
 
 void PlacedTarget::find_triangles_of_faces()

@@ -67,6 +67,11 @@ public:
                                       std::vector<Patch> patches,
                                       const std::vector<Domain>& domains);
 
+    /// Of parts that fit together as said here.
+    PlacedTarget(EmbeddedTarget embedded, std::vector<Domain> domains,
+                 std::vector<PlacedPatch> patches, std::vector<ChainShares> shares);
+
+    const EmbeddedTarget& embedded() const { return embedded_; }
     const TriangleMesh& target() const { return *embedded_.target; }
     const RefinedMesh& refined() const { return *embedded_.refined; }
     const std::vector<Domain>& domains() const { return domains_; }
@@ -108,10 +113,24 @@ private:
     std::vector<std::vector<Index>> part_offsets_;
 };
 
-/// Where the boundary vertices of a patch lie in its domain, exactly.
-std::vector<GridPoint> boundary_points(const Layout& layout, const Patch& patch,
-                                       const Domain& domain,
-                                       const std::vector<ChainShares>& shares);
+/// A corner of a domain in its whole steps of 2^-20; they are numbered cyclically.
+std::array<std::int64_t, 2> corner_steps(const Domain& domain, std::size_t corner);
+
+/// A domain with corners moved to multiples of 2^-20; nothing if it is not strictly convex then.
+std::optional<Domain> snapped(Domain domain);
+
+/// Where the boundary vertices of a patch lie in its domain, exactly. `halfedges` are its sides.
+std::vector<PlanePoint> boundary_points(std::span<const Index> halfedges, const Patch& patch,
+                                        const Domain& domain,
+                                        const std::vector<ChainShares>& shares);
+
+/// Maps a patch onto its domain with the given boundary, all points on the plane grid. Errors:
+/// parametrisationFailed.
+Result<PlacedPatch> place_patch(Patch patch, std::span<const Vec3> positions, const Domain& domain,
+                                std::span<const PlanePoint> boundary);
+
+/// The connectivity of a map.
+TriangleMesh mesh_of_map(const Parametrisation& map);
 
 /// Whether every triangle of a map is positively oriented on the plane grid.
 bool is_positive(const Parametrisation& map);

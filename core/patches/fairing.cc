@@ -10,6 +10,7 @@
 #include "patches/patch_shape.hh"
 #include "patches/patch_union.hh"
 #include "patches/straight_line.hh"
+#include "patches/target_places.hh"
 
 namespace layout_embedding {
 namespace {
@@ -17,104 +18,6 @@ namespace {
 /// By how much a trace has to raise the smaller quotient of its patches.
 constexpr double kLeastGain = 0.01;
 constexpr double kRounding = 1e-9;
-
-/// The edge of a mesh between two vertices, kNone if there is none.
-Index edge_between(const TriangleMesh& mesh, Index a, Index b)
-{
-    const Index start = mesh.outgoing(a);
-    Index h = start;
-    do {
-        if (mesh.head(h) == b) {
-            return mesh.edge(h);
-        }
-        if (mesh.tail(TriangleMesh::previous(h)) == b) {
-            return mesh.edge(TriangleMesh::previous(h));
-        }
-        h = mesh.rotated_ccw(h);
-    } while (h != kNone && h != start);
-    return kNone;
-}
-
-/// Where vertices of a parametrised disk lie on the target: at a vertex, on an edge, or inside of a
-/// face.
-class TargetPlaces {
-public:
-    TargetPlaces(const TriangleMesh& target, const RefinedMesh& refined, const Patch& patch,
-                 const Parametrisation& map)
-        : target_(target), refined_(refined), patch_(patch), map_(map)
-    {}
-
-    /// The edge of the target that two vertices lie on or at the ends of, kNone if there is none.
-    /// Vertices of one triangle have one iff the triangle's side is a part of it.
-    Index common_edge(Index v, Index w) const
-    {
-        const Spot a = spot_of(v);
-        const Spot b = spot_of(w);
-        if (a.edge != kNone || b.edge != kNone) {
-            const Spot& on_edge = a.edge != kNone ? a : b;
-            const Spot& other = a.edge != kNone ? b : a;
-            const Index h = target_.halfedge(on_edge.edge);
-            const bool common = other.edge == on_edge.edge ||
-                                (other.vertex != kNone && (other.vertex == target_.tail(h) ||
-                                                           other.vertex == target_.head(h)));
-            return common ? on_edge.edge : kNone;
-        }
-        return a.vertex == kNone || b.vertex == kNone ? kNone
-                                                      : edge_between(target_, a.vertex, b.vertex);
-    }
-
-    /// Of a vertex on an edge or at its end.
-    double parameter_on(Index edge, Index v) const
-    {
-        const Spot spot = spot_of(v);
-        if (spot.vertex != kNone) {
-            return spot.vertex == target_.tail(target_.halfedge(edge)) ? 0 : 1;
-        }
-        return spot.parameter;
-    }
-
-private:
-    struct Spot {
-        Index vertex = kNone;
-        Index edge = kNone;
-        double parameter = 0;
-    };
-
-    Spot spot_of(Index v) const
-    {
-        if (v < patch_.vertices.size()) {
-            return refined_spot(patch_.vertices[v]);
-        }
-        const auto& [a, b] = map_.splits[v - patch_.vertices.size()];
-        Spot spot;
-        spot.edge = common_edge(a, b);
-        if (spot.edge != kNone) {
-            spot.parameter = (parameter_on(spot.edge, a) + parameter_on(spot.edge, b)) / 2;
-        }
-        return spot;
-    }
-
-    Spot refined_spot(Index vertex) const
-    {
-        if (vertex < target_.vertex_count()) {
-            return {vertex, kNone, 0};
-        }
-        const Index k = vertex - target_.vertex_count();
-        const auto& barycentrics = refined_.vertex_barycentrics[k];
-        // Crossings lie on the halfedge that gives their edge its direction.
-        Index i = 0;
-        while (!(barycentrics[i] > 0 && barycentrics[TriangleMesh::next(i)] > 0)) {
-            ++i;
-        }
-        return {kNone, target_.edge(3 * refined_.vertex_faces[k] + i),
-                barycentrics[TriangleMesh::next(i)]};
-    }
-
-    const TriangleMesh& target_;
-    const RefinedMesh& refined_;
-    const Patch& patch_;
-    const Parametrisation& map_;
-};
 
 /// Puts strands on the free vertices that their gaps would bend them around.
 void snap_to_vertices(NormalForm& form, double spacing)

@@ -362,11 +362,17 @@ std::array<double, 3> Parametrisation::weights_in_parent(const Patch& patch, Ind
     return sums;
 }
 
-Result<Parametrisation> parametrise(const Patch& patch, std::span<const Vec3> positions,
-                                    const Domain& domain, const ParametriseOptions& options)
+Parametrisation unplaced_map(const Patch& patch)
 {
     Parametrisation map;
     split_edges(patch, map);
+    return map;
+}
+
+Result<Parametrisation> parametrise(const Patch& patch, std::span<const Vec3> positions,
+                                    const Domain& domain, const ParametriseOptions& options)
+{
+    Parametrisation map = unplaced_map(patch);
     const std::vector<Vec3> all = map.positions(patch, positions);
     map.points.assign(all.size(), PlanePoint(0, 0));
     if (options.boundary.empty()) {

@@ -59,6 +59,10 @@ struct ParametriseOptions {
 Result<Parametrisation> parametrise(const Patch& patch, std::span<const Vec3> positions,
                                     const Domain& domain, const ParametriseOptions& options = {});
 
+/// The triangles of a map of a patch onto a polygon with a corner per side, edges that join two
+/// vertices of one side split; without points and stretch.
+Parametrisation unplaced_map(const Patch& patch);
+
 /// The length of each side of a patch.
 std::vector<double> side_lengths(const Patch& patch, std::span<const Vec3> positions);
 

@@ -15,6 +15,7 @@
 #include "mesh/triangle_mesh.hh"
 #include "mesh/validation.hh"
 #include "shapes/collection_check.hh"
+#include "shapes/map_check.hh"
 #include "shapes/shape.hh"
 #include "shapes/statistics.hh"
 
@@ -37,13 +38,17 @@ constexpr const char* kUsage =
     "    embeds the template layout of every member in the next N members of its class (all), by\n"
     "    the exact method and by the heuristics; with --doubts, also the template's mirror image\n"
     "    and with two landmarks exchanged, and counts what is said of these. 2000 vertices each\n"
-    "    unless told otherwise. Takes an hour for everything\n";
+    "    unless told otherwise. Takes an hour for everything\n"
+    "generate_shapes --check --maps [--class NAME] [--member N] [--others N] [--vertices N]\n"
+    "    embeds the quad template of member N (0) of each class in it and in others, makes quad\n"
+    "    meshes of the same connectivity, and maps it onto the others\n";
 
 struct Arguments {
     bool list = false;
     bool all = false;
     bool statistics = false;
     bool check = false;
+    bool maps = false;
     CollectionCheckOptions check_options;
     std::string class_name;
     /// Empty for all.
@@ -92,6 +97,8 @@ bool parse(int count, char** words, Arguments& arguments)
             arguments.statistics = true;
         } else if (word == "--check") {
             arguments.check = true;
+        } else if (word == "--maps") {
+            arguments.maps = true;
         } else if (word == "--doubts") {
             arguments.check_options.doubts = true;
         } else if (word == "--class") {
@@ -308,6 +315,11 @@ int run(int count, char** words)
         options.seed = arguments.options.seed;
         if (arguments.options.vertices != 0) {
             options.vertices = arguments.options.vertices;
+        }
+        if (arguments.maps) {
+            const bool all =
+                check_maps_of_collection(chosen(arguments), arguments.members, options);
+            return all ? 0 : 1;
         }
         return check_collection(chosen(arguments), options) ? 0 : 1;
     }

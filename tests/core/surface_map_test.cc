@@ -41,11 +41,43 @@ EmbeddingProblem near(const PolygonMesh& layout, const PolygonMesh& target, doub
 }
 
 SurfaceMap map_of(const EmbeddingProblem& problem, const MappedTarget& a, const MappedTarget& b,
-                  Index rounds)
+                  Index rounds, Index seam_passes = 0)
 {
-    auto map = SurfaceMap::make(problem.layout, a, b, {rounds});
+    auto map = SurfaceMap::make(problem.layout, a, b, {rounds, seam_passes});
     EXPECT_TRUE(map.ok()) << map.error().message;
     return std::move(*map);
+}
+
+PolygonMesh polygons(const TriangleMesh& mesh)
+{
+    PolygonMesh result;
+    result.positions = mesh.positions();
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        result.add_face(mesh.face(f));
+    }
+    return result;
+}
+
+/// Fails the test unless both targets are cut along embeddings of the layout.
+void expect_embeddings(const PolygonMesh& layout_mesh, const SurfaceMap& map,
+                       const std::vector<Index>& landmarks_a, const std::vector<Index>& landmarks_b)
+{
+    const Layout& layout = map.layout();
+    std::vector<std::array<Index, 2>> edges;
+    for (Index e = 0; e < layout.edge_count(); ++e) {
+        edges.push_back({layout.tail(2 * e), layout.head(2 * e)});
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+        const CheckReport report = check_embedding({layout_mesh,
+                                                    polygons(map.placed(side).target()),
+                                                    side == 0 ? landmarks_a : landmarks_b,
+                                                    map.placed(side).refined(),
+                                                    edges,
+                                                    {}});
+        for (const Violation& violation : report.violations) {
+            ADD_FAILURE() << violation.code << ": " << violation.message;
+        }
+    }
 }
 
 double face_area(const TriangleMesh& mesh, Index face)
@@ -280,6 +312,28 @@ TEST(SurfaceMap, exists_for_every_topology)
         expect_common_refinement(map);
         EXPECT_GE(map.first_distortion().mean_energy, map.distortion().mean_energy);
     }
+}
+
+TEST(SurfaceMap, moves_the_paths_of_both_targets_to_lower_the_energy_and_keeps_embeddings)
+{
+    const std::vector<std::array<PolygonMesh, 3>> triples{
+        {zoo::cube(), zoo::stretched_sphere(2, Vec3(1, 2, 1)), zoo::bumpy_sphere(2, 4)},
+        {zoo::quad_torus(3, 3), zoo::torus(12, 9), zoo::torus(9, 9)},
+        {zoo::quad_grid(2, 2), zoo::grid_disk(6, 6), zoo::grid_disk(4, 7)}};
+    int moved = 0;
+    for (const auto& [layout, first, second] : triples) {
+        const EmbeddingProblem a = near(layout, first, 0.1);
+        const EmbeddingProblem b = near(layout, second, 0.1);
+        const MappedTarget in_a = embed(a);
+        const MappedTarget in_b = embed(b, PathShape::even);
+        const SurfaceMap plain = map_of(a, in_a, in_b, 3);
+        const SurfaceMap better = map_of(a, in_a, in_b, 3, 1);
+        EXPECT_LE(better.distortion().mean_energy, plain.distortion().mean_energy);
+        moved += better.distortion().mean_energy < 4 + 0.9 * (plain.distortion().mean_energy - 4);
+        expect_common_refinement(better);
+        expect_embeddings(layout, better, a.landmarks, b.landmarks);
+    }
+    EXPECT_GE(moved, 2);
 }
 
 TEST(MapCheck, refuses_what_is_not_one_to_one)

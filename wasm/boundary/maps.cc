@@ -81,7 +81,8 @@ std::uint32_t boundary_embedding_create(std::uint32_t job)
 
 /// Makes the map between a kept embedding (side 0) and a job's (side 1) of the same layout.
 BOUNDARY_EXPORT(boundary_map_create)
-std::uint32_t boundary_map_create(std::uint32_t embedding, std::uint32_t job, std::uint32_t rounds)
+std::uint32_t boundary_map_create(std::uint32_t embedding, std::uint32_t job, std::uint32_t rounds,
+                                  std::uint32_t seam_passes)
 {
     return guarded(0U, [&] {
         const EmbeddingObject& reference = handles<EmbeddingObject>().get(embedding);
@@ -89,8 +90,8 @@ std::uint32_t boundary_map_create(std::uint32_t embedding, std::uint32_t job, st
         if (other.problem().layout != reference.layout) {
             throw InvalidHandle("the embeddings are of different layouts");
         }
-        auto made =
-            SurfaceMap::make(reference.layout, reference.target, mapped_target(other), {rounds});
+        auto made = SurfaceMap::make(reference.layout, reference.target, mapped_target(other),
+                                     {rounds, seam_passes});
         if (!made) {
             set_error(made.error());
             return 0U;

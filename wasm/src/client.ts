@@ -1,12 +1,16 @@
 // The same API in a worker ("layout-embedding/worker"), so that a page stays responsive: in
 // browsers a module worker, in Node a worker thread.
 import type * as WorkerThreads from "node:worker_threads";
+import { batchIn } from "./batch.js";
 import { javaScriptError, LayoutError } from "./errors.js";
 import type { Reply, Request, SessionMethod } from "./protocol.js";
 import { embedIn, mapIn, templateIn } from "./sugar.js";
 import type {
     CandidatePaths,
     DraggedPaths,
+    BatchMember,
+    BatchOptions,
+    BatchRow,
     EmbeddingClaim,
     EmbeddingSession,
     EmbedOptions,
@@ -130,6 +134,20 @@ export class EmbeddingWorker {
         const session = await this.createSession();
         try {
             return await mapIn(session, problem, options);
+        } finally {
+            await session.dispose().catch(() => undefined);
+        }
+    }
+
+    /** One layout in many targets, as batch() of the package does, but in the worker. */
+    async batch(
+        layout: MeshInput,
+        members: readonly BatchMember[],
+        options: BatchOptions = {},
+    ): Promise<BatchRow[]> {
+        const session = await this.createSession();
+        try {
+            return await batchIn(session, layout, members, options);
         } finally {
             await session.dispose().catch(() => undefined);
         }

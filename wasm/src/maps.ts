@@ -17,14 +17,16 @@ export function makeMap(
     job: Handle,
     options: SurfaceMapOptions,
 ): Handle {
-    const { rounds = 20 } = options;
-    if (!(Number.isInteger(rounds) && rounds >= 0 && rounds < 2 ** 31)) {
-        throw new LayoutError(
-            "invalidOption",
-            `rounds is ${String(rounds)}; give a whole number that is not negative.`,
-        );
+    const { rounds = 20, seamPasses = 2 } = options;
+    for (const [name, value] of Object.entries({ rounds, seamPasses })) {
+        if (!(Number.isInteger(value) && value >= 0 && value < 2 ** 31)) {
+            throw new LayoutError(
+                "invalidOption",
+                `${name} is ${String(value)}; give a whole number that is not negative.`,
+            );
+        }
     }
-    return core.call("boundary_map_create", reference, job, rounds);
+    return core.call("boundary_map_create", reference, job, rounds, seamPasses);
 }
 
 export function readMap(core: Core, map: Handle): SurfaceMap {

@@ -38,7 +38,7 @@ export async function mapIn(
     problem: SurfaceMapProblem,
     options: EmbedOptions & SurfaceMapOptions,
 ): Promise<SurfaceMap> {
-    const { repair, rounds, ...solveOptions } = options;
+    const { repair, rounds, seamPasses, ...solveOptions } = options;
     const load = { repair: repair === true };
     await session.loadLayout(problem.layout, load);
     for (const role of ["reference", "target"] as const) {
@@ -58,7 +58,10 @@ export async function mapIn(
             await session.setReference();
         }
     }
-    return session.mapFromReference(rounds === undefined ? {} : { rounds });
+    return session.mapFromReference({
+        ...(rounds !== undefined && { rounds }),
+        ...(seamPasses !== undefined && { seamPasses }),
+    });
 }
 
 /** One template layout in a fresh session of either kind. */

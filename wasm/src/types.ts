@@ -476,6 +476,11 @@ export interface SurfacePoints {
 export interface SurfaceMapOptions {
     /** Rounds of optimisation at most; 0 leaves the maps of the patches as they are. Default: 20. */
     rounds?: number;
+    /**
+     * How often the paths of both targets are moved at most, so that points on a path need not be
+     * mapped to a path of the other embedding; 0 keeps both embeddings as they are. Default: 2.
+     */
+    seamPasses?: number;
 }
 
 /**

@@ -144,6 +144,7 @@ const mapOptions = {
     "landmarks-b": { type: "string" },
     output: { type: "string" },
     rounds: { type: "string" },
+    "seam-passes": { type: "string" },
     repair: { type: "boolean" },
     quiet: { type: "boolean" },
     json: { type: "boolean" },
@@ -156,6 +157,7 @@ const batchOptions = {
     reference: { type: "string" },
     "edge-length": { type: "string" },
     rounds: { type: "string" },
+    "seam-passes": { type: "string" },
     repair: { type: "boolean" },
     quiet: { type: "boolean" },
     json: { type: "boolean" },
@@ -292,6 +294,13 @@ function solveValues(values: SolveValues): SolveOptions {
     return solve;
 }
 
+function mapValues(values: { rounds?: string; "seam-passes"?: string }): SurfaceMapOptions {
+    return {
+        ...given("rounds", number("--rounds", values.rounds)),
+        ...given("seamPasses", number("--seam-passes", values["seam-passes"])),
+    };
+}
+
 function parseMap(args: string[]): Command {
     const { values, positionals } = parsed({ args, options: mapOptions, allowPositionals: true });
     if (values.help) {
@@ -308,7 +317,7 @@ function parseMap(args: string[]): Command {
         quiet: values.quiet === true,
         json: values.json === true,
         solve: solveValues(values),
-        map: given("rounds", number("--rounds", values.rounds)),
+        map: mapValues(values),
     };
 }
 
@@ -329,7 +338,7 @@ function parseBatch(args: string[]): Command {
         json: values.json === true,
         solve: solveValues(values),
         quads: given("edgeLength", number("--edge-length", values["edge-length"])),
-        map: given("rounds", number("--rounds", values.rounds)),
+        map: mapValues(values),
     };
 }
 

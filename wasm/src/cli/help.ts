@@ -61,13 +61,16 @@ Options of map, beside those of embed on searches and shapes
                        overlay_b.obj (the common refinement on either target, with the texture
                        coordinates of TARGET_A), and both embeddings to a/ and b/
   --rounds N           rounds of optimisation at most (default 20)
+  --seam-passes N      how often the paths of both targets are moved at most to lower the distortion
+                       (default 2); 0 maps the paths of one embedding onto those of the other
 
 Options of batch, beside those of embed on searches and shapes
   --output DIR         write summary.csv and summary.json there, and a folder per member
   --reference NAME     the member that all others are mapped from (default: the first one)
   --edge-length X      wanted length of the quads' edges on the reference; all members get the same
                        connectivity
-  --rounds N           as for map
+  --rounds N, --seam-passes N
+                       as for map
 
 Options of layout
   --output LAYOUT.obj  the file to write; its vertices are the landmarks, in their order

@@ -1,0 +1,160 @@
+#include "shapes/map_check.hh"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/embed_job.hh"
+#include "apps/quad_mesh.hh"
+#include "apps/surface_map.hh"
+#include "layout/template_layout.hh"
+
+namespace layout_embedding::shapes {
+namespace {
+
+double cpu_seconds()
+{
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+struct Embedded {
+    MappedTarget target;
+    QuadMesh quads;
+};
+
+/// A checked embedding and its quads; prints why there is none.
+std::optional<Embedded> embed_member(const std::shared_ptr<const Layout>& layout,
+                                     const Shape& shape, const QuadOptions& options)
+{
+    const auto problem =
+        make_problem(layout, std::make_shared<const TriangleMesh>(shape.mesh), shape.landmarks);
+    if (!problem) {
+        std::printf("%s\n", problem.error().message.c_str());
+        return std::nullopt;
+    }
+    EmbedJob job(*problem, {});
+    while (job.step()) {
+    }
+    if (!job.result().refined) {
+        std::printf("no embedding %s\n", job.error().message.c_str());
+        return std::nullopt;
+    }
+    auto quads = make_quad_mesh(*layout, *problem->target, *job.result().refined, options);
+    if (!quads) {
+        std::printf("%s\n", quads.error().message.c_str());
+        return std::nullopt;
+    }
+    return Embedded{{{problem->target, std::make_shared<const RefinedMesh>(*job.result().refined)},
+                     problem->landmarks},
+                    std::move(*quads)};
+}
+
+struct MapTotals {
+    Index pairs = 0;
+    Index complete = 0;
+    std::size_t quads = 0;
+    std::size_t flipped = 0;
+    std::vector<double> energies;
+};
+
+bool check_template(const ShapeClass& shape_class, Index from,
+                    const CollectionCheckOptions& options, MapTotals& totals)
+{
+    const auto make = [&](Index member) {
+        return make_shape(shape_class, member, {options.vertices, options.seed});
+    };
+    const auto source = make(from);
+    if (!source) {
+        std::printf("%s\n", source.error().message.c_str());
+        return false;
+    }
+    const auto made = template_layout(TriangleMesh(source->mesh), source->landmarks, {true});
+    if (!made) {
+        std::printf("%s: %s\n", shape_class.name.c_str(), made.error().message.c_str());
+        return false;
+    }
+    auto cells = Layout::from_polygons(made->mesh, "the template");
+    if (!cells) {
+        std::printf("%s: %s\n", shape_class.name.c_str(), cells.error().message.c_str());
+        return false;
+    }
+    const auto layout = std::make_shared<const Layout>(std::move(*cells));
+    const auto first = embed_member(layout, *source, {});
+    if (!first) {
+        return false;
+    }
+    // All members get the numbers of segments of the first one.
+    QuadOptions quad_options;
+    for (Index e = 0; e < layout->edge_count(); ++e) {
+        quad_options.segments.emplace_back(e,
+                                           static_cast<Index>(first->quads.chains[e].size() - 1));
+    }
+    bool all = true;
+    const Index count = shape_class.member_count();
+    for (Index step = 1; step <= std::min(options.others, count - 1); ++step) {
+        const Index to = (from + step) % count;
+        std::printf("%-13s %-14s -> %-14s ", shape_class.name.c_str(),
+                    shape_class.members[from].c_str(), shape_class.members[to].c_str());
+        ++totals.pairs;
+        const auto other = make(to);
+        const auto second =
+            other ? embed_member(layout, *other, quad_options) : std::optional<Embedded>();
+        if (!second) {
+            all = false;
+            continue;
+        }
+        const double start = cpu_seconds();
+        const auto map = SurfaceMap::make(layout, first->target, second->target);
+        const double seconds = cpu_seconds() - start;
+        const bool same = first->quads.quads == second->quads.quads;
+        totals.quads += second->quads.quads.size();
+        totals.flipped += second->quads.statistics.flipped;
+        std::printf("%5zu quads%s, %3zu flipped; ", second->quads.quads.size(),
+                    same ? "" : " (OTHER CONNECTIVITY)",
+                    static_cast<std::size_t>(second->quads.statistics.flipped));
+        if (!map) {
+            std::printf("%s\n", map.error().message.c_str());
+            all = false;
+            continue;
+        }
+        std::printf("energy %8.3f -> %7.3f, angles %.3f, areas %.3f, %.1f s\n",
+                    map->first_distortion().mean_energy, map->distortion().mean_energy,
+                    map->distortion().mean_conformal, map->distortion().mean_area, seconds);
+        std::fflush(stdout);
+        all = all && same;
+        ++totals.complete;
+        totals.energies.push_back(map->distortion().mean_energy);
+    }
+    return all;
+}
+
+}  // namespace
+
+bool check_maps_of_collection(const std::vector<const ShapeClass*>& classes,
+                              const std::vector<Index>& templates,
+                              const CollectionCheckOptions& options)
+{
+    MapTotals totals;
+    bool all = true;
+    for (const ShapeClass* const shape_class : classes) {
+        for (const Index from : templates.empty() ? std::vector<Index>{0} : templates) {
+            if (from < shape_class->member_count()) {
+                all = check_template(*shape_class, from, options, totals) && all;
+            }
+        }
+    }
+    std::printf("%u of %u pairs mapped; %zu of %zu quads flipped", totals.complete, totals.pairs,
+                totals.flipped, totals.quads);
+    if (!totals.energies.empty()) {
+        std::sort(totals.energies.begin(), totals.energies.end());
+        std::printf("; energy: median %.3f, largest %.3f",
+                    totals.energies[totals.energies.size() / 2], totals.energies.back());
+    }
+    std::printf("\n");
+    return all;
+}
+
+}  // namespace layout_embedding::shapes
