@@ -68,6 +68,9 @@ public:
 private:
     Status choose()
     {
+        if (!options_.segments_as.empty()) {
+            return take_segments();
+        }
         std::vector<double> lengths;
         for (const std::vector<Index>& chain : refined_.chains) {
             lengths.push_back(chain_length(refined_, chain));
@@ -80,6 +83,28 @@ private:
             return segments.error();
         }
         segments_ = std::move(*segments);
+        return confirm_size();
+    }
+
+    /// Takes the numbers of another mesh over.
+    Status take_segments()
+    {
+        segments_ = options_.segments_as;
+        bool fit = segments_.size() == base_.edge_count();
+        std::vector<Index> of_loops(base_.loop_count(), 0);
+        for (Index e = 0; fit && e < base_.edge_count(); ++e) {
+            Index& of_loop = of_loops[base_.loops()[e]];
+            of_loop = of_loop == 0 ? segments_[e] : of_loop;
+            fit = segments_[e] > 0 && segments_[e] == of_loop;
+        }
+        return fit ? confirm_size()
+                   : make_error(ErrorCode::invalidOption,
+                                "the numbers of segments are not those of a quad mesh of this "
+                                "layout");
+    }
+
+    Status confirm_size() const
+    {
         double vertices = layout_.vertex_count();
         for (const BaseComplex::Quad& quad : base_.quads()) {
             vertices += (segments_[quad.sides[0].edge] + 1.0) * (segments_[quad.sides[1].edge] + 1);
@@ -294,6 +319,7 @@ private:
     void finish()
     {
         mesh_.is_subdivided = base_.is_subdivided();
+        mesh_.segments = segments_;
         for (Index e = 0; e < layout_.edge_count(); ++e) {
             const auto [first, second] = base_.edges_of(e);
             mesh_.loops.push_back({base_.loops()[first], base_.loops()[second]});

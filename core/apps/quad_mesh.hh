@@ -19,6 +19,9 @@ struct QuadOptions {
     double edge_length = 0;
     /// Pairs of a layout edge and its number of segments, which rule its whole loops of quads.
     std::vector<std::pair<Index, Index>> segments;
+    /// QuadMesh::segments of another mesh of the same layout, to get the same connectivity; the
+    /// options above don't count then. Empty for none.
+    std::vector<Index> segments_as;
     /// How often all vertices are moved to even the mesh out. 0: the resampled patches as they are.
     Index relaxation_rounds = 30;
 };
@@ -37,6 +40,8 @@ struct QuadMesh {
     std::vector<std::vector<Index>> chains;
     /// Whether the layout had a face without four sides, so that all faces were subdivided.
     bool is_subdivided = false;
+    /// Numbers of segments, per edge of the base complex (apps/base_complex.hh).
+    std::vector<Index> segments;
     /// Per layout edge: the dual loops of its two halves, the same without a subdivision.
     std::vector<std::array<Index, 2>> loops;
     QuadStatistics statistics;

@@ -88,10 +88,7 @@ bool check_template(const ShapeClass& shape_class, Index from,
     }
     // All members get the numbers of segments of the first one.
     QuadOptions quad_options;
-    for (Index e = 0; e < layout->edge_count(); ++e) {
-        quad_options.segments.emplace_back(e,
-                                           static_cast<Index>(first->quads.chains[e].size() - 1));
-    }
+    quad_options.segments_as = first->quads.segments;
     bool all = true;
     const Index count = shape_class.member_count();
     for (Index step = 1; step <= std::min(options.others, count - 1); ++step) {
@@ -103,6 +100,7 @@ bool check_template(const ShapeClass& shape_class, Index from,
         const auto second =
             other ? embed_member(layout, *other, quad_options) : std::optional<Embedded>();
         if (!second) {
+            std::fflush(stdout);
             all = false;
             continue;
         }

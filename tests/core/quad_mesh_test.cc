@@ -251,6 +251,37 @@ TEST(QuadMesh, conforms_on_every_kind_of_surface)
     }
 }
 
+TEST(QuadMesh, takes_over_the_numbers_of_segments_of_another_mesh_of_the_layout)
+{
+    // Triangles: every edge has two loops, whose numbers differ on the first target.
+    const PolygonMesh layout = zoo::icosahedron();
+    std::vector<QuadMesh> made;
+    for (const PolygonMesh& target :
+         {zoo::stretched_sphere(2, Vec3(1, 1, 3)), zoo::bumpy_sphere(2, 2)}) {
+        const auto embedded = embed(
+            test::problem_of(layout, target, zoo::displaced_landmarks(layout, target, 0.1, 3)));
+        ASSERT_TRUE(embedded.has_value());
+        QuadOptions options;
+        options.edge_length = 0.2;
+        if (!made.empty()) {
+            options.segments_as = made[0].segments;
+        }
+        auto quads = make_quad_mesh(*embedded->problem.layout, *embedded->problem.target,
+                                    embedded->refined, options);
+        ASSERT_TRUE(quads.ok()) << quads.error().message;
+        made.push_back(std::move(*quads));
+        ++options.segments_as.emplace_back();
+        const auto refused = make_quad_mesh(*embedded->problem.layout, *embedded->problem.target,
+                                            embedded->refined, options);
+        ASSERT_FALSE(refused.ok());
+        EXPECT_EQ(refused.error().code, ErrorCode::invalidOption);
+    }
+    EXPECT_EQ(made[1].quads, made[0].quads);
+    const auto& loops = made[0].loops;
+    EXPECT_TRUE(std::any_of(loops.begin(), loops.end(),
+                            [](const auto& both) { return both[0] != both[1]; }));
+}
+
 TEST(QuadMesh, relaxation_makes_quads_better)
 {
     const PolygonMesh sphere = zoo::bumpy_sphere(3, 2);

@@ -14,10 +14,13 @@ const QuadMesh& quad_mesh(std::uint32_t handle)
 }  // namespace
 
 /// Makes a quad mesh of a job's embedding. `segments` are `count` pairs of a layout edge and its
-/// number of segments; an edge length of 0 stands for the default. Returns its handle.
+/// number of segments; an edge length of 0 stands for the default. `same` are `same_count` numbers
+/// of segments of another mesh of the layout, which rule alone if there are any. Returns its
+/// handle.
 BOUNDARY_EXPORT(boundary_quads_create)
 std::uint32_t boundary_quads_create(std::uint32_t job, double edge_length,
                                     const std::array<Index, 2>* segments, std::size_t count,
+                                    const Index* same, std::size_t same_count,
                                     std::uint32_t relaxation_rounds)
 {
     return guarded(0U, [&] {
@@ -30,6 +33,7 @@ std::uint32_t boundary_quads_create(std::uint32_t job, double edge_length,
         for (std::size_t i = 0; i < count; ++i) {
             options.segments.emplace_back(segments[i][0], segments[i][1]);
         }
+        options.segments_as.assign(same, same + same_count);
         options.relaxation_rounds = relaxation_rounds;
         auto made = make_quad_mesh(*embedding.problem().layout, *embedding.problem().target,
                                    *embedding.result().refined, options);
@@ -77,6 +81,15 @@ std::uint32_t boundary_quads_chain(std::uint32_t mesh, std::size_t chain)
             return 0U;
         }
         set_view(quads.chains[chain]);
+        return 1U;
+    });
+}
+
+/// Views the numbers of segments per edge of the base complex.
+BOUNDARY_EXPORT(boundary_quads_segments) std::uint32_t boundary_quads_segments(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        set_view(quad_mesh(mesh).segments);
         return 1U;
     });
 }

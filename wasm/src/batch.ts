@@ -8,7 +8,6 @@ import type {
     BatchRow,
     EmbeddingSession,
     MeshInput,
-    QuadMesh,
     QuadOptions,
 } from "./types.js";
 
@@ -32,7 +31,7 @@ export async function batchIn(
     const order = [...members].sort(
         (a, b) => Number(b.name === reference) - Number(a.name === reference),
     );
-    let segments: QuadOptions["segments"] | null = null;
+    let segments: Uint32Array | null = null;
     for (const member of order) {
         if (options.signal?.aborted === true) {
             break;
@@ -40,13 +39,13 @@ export async function batchIn(
         const isReference = segments === null && (reference === null || member.name === reference);
         const known = options.known?.(member.name) ?? null;
         // The reference is needed for all that is still to be done.
-        const pending = order.some(({ name }) => options.known?.(name) == null);
+        const pending = order.some(({ name }) => (options.known?.(name) ?? null) === null);
         if (known !== null && !(isReference && pending)) {
             rows.set(member.name, known);
             continue;
         }
         const quadOptions: QuadOptions =
-            segments === null ? { ...options.quads } : { ...options.quads, segments };
+            segments === null ? { ...options.quads } : { ...options.quads, segmentsAs: segments };
         const { row, products } = await runMember(
             session,
             member,
@@ -55,7 +54,7 @@ export async function batchIn(
             isReference ? "reference" : segments === null ? "alone" : "target",
         );
         if (isReference && products !== null) {
-            segments = segmentsOf(products.quads, products.result.edges.length);
+            segments = products.quads.segments;
             row.isReference = true;
         }
         rows.set(member.name, row);
@@ -117,13 +116,6 @@ async function runMember(
     }
 }
 
-/** The numbers of segments of the layout's edges. */
-function segmentsOf(quads: QuadMesh, edgeCount: number): [number, number][] {
-    return quads.chains
-        .slice(0, edgeCount)
-        .map((chain, edge): [number, number] => [edge, chain.length - 1]);
-}
-
 const columns = [
     "name",
     "isReference",
@@ -147,7 +139,7 @@ const columns = [
 /** The rows as comma-separated values, with a line of headings. */
 export function batchTable(rows: readonly BatchRow[]): string {
     const cell = (value: unknown) => {
-        const text = value === undefined || value === null ? "" : String(value as string | number);
+        const text = value === undefined || value === null ? "" : String(value);
         return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
     };
     return [

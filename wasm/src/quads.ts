@@ -5,14 +5,14 @@ import type { QuadMesh, QuadOptions } from "./types.js";
 
 /** Makes a quad mesh of a job's embedding. */
 export function makeQuads(core: Core, job: Handle, options: QuadOptions): QuadMesh {
-    const { edgeLength = 0, segments = [], relaxation = 30 } = options;
+    const { edgeLength = 0, segments = [], segmentsAs = [], relaxation = 30 } = options;
     if (options.edgeLength !== undefined && !(edgeLength > 0)) {
         throw new LayoutError(
             "invalidOption",
             `edgeLength is ${String(edgeLength)}; give a positive length.`,
         );
     }
-    const numbers = [...segments.flat(), relaxation];
+    const numbers = [...segments.flat(), ...Array.from(segmentsAs), relaxation];
     if (!numbers.every((number) => Number.isInteger(number) && number >= 0 && number < 2 ** 31)) {
         throw new LayoutError(
             "invalidOption",
@@ -26,6 +26,8 @@ export function makeQuads(core: Core, job: Handle, options: QuadOptions): QuadMe
             edgeLength,
             copy(Uint32Array.from(segments.flat())),
             segments.length,
+            copy(Uint32Array.from(segmentsAs)),
+            segmentsAs.length,
             relaxation,
         ),
     );
@@ -45,6 +47,8 @@ function readQuads(core: Core, mesh: Handle): QuadMesh {
     const faces = core.viewedIds();
     core.call("boundary_quads_loops", mesh);
     const loops = core.viewedIds(2);
+    core.call("boundary_quads_segments", mesh);
+    const segments = core.viewedIds();
     const chains: Uint32Array[] = [];
     for (let i = 0; core.test("boundary_quads_chain", mesh, i); ++i) {
         chains.push(core.viewedIds());
@@ -69,6 +73,7 @@ function readQuads(core: Core, mesh: Handle): QuadMesh {
         faces,
         chains,
         loops,
+        segments,
         subdivided: subdivided !== 0,
         statistics: {
             leastJacobian,

@@ -402,6 +402,11 @@ export interface QuadOptions {
     edgeLength?: number;
     /** Pairs of a layout edge and its number of segments, which rule its whole loops of quads. */
     segments?: readonly (readonly [edge: number, segments: number])[];
+    /**
+     * The `segments` of another quad mesh of the same layout, to get the same connectivity; the options
+     * above don't count then.
+     */
+    segmentsAs?: ArrayLike<number>;
     /** How often all vertices are moved to even the mesh out. Default: 30. */
     relaxation?: number;
 }
@@ -419,6 +424,8 @@ export interface QuadMesh {
      * of faces where they were subdivided.
      */
     chains: Uint32Array[];
+    /** Numbers of segments, for `segmentsAs`. */
+    segments: Uint32Array;
     /** Two per layout edge: the dual loops of its halves, the same unless `subdivided`. */
     loops: Uint32Array;
     /** Whether the layout had a face without four sides, so that all were subdivided once. */
@@ -698,7 +705,7 @@ export interface BatchMember {
 export interface BatchOptions extends LoadOptions {
     solve?: Omit<SolveOptions, "signal" | "onProgress">;
     /** Numbers of segments follow from the reference. */
-    quads?: Omit<QuadOptions, "segments">;
+    quads?: Omit<QuadOptions, "segments" | "segmentsAs">;
     map?: SurfaceMapOptions;
     /**
      * The member that all others are mapped from. Default: the first one that is embedded. While
