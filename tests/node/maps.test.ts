@@ -1,7 +1,14 @@
 // Maps between targets: the API in both kinds of thread, and the commands `map` and `batch`.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import path from "node:path";
-import { batch, batchTable, mapSurfaces, Session, type SurfaceMap } from "layout-embedding";
+import {
+    batch,
+    batchTable,
+    mapSurfaces,
+    Session,
+    type SurfaceMap,
+    type SurfacePoints,
+} from "layout-embedding";
 import { createWorkerClient } from "layout-embedding/worker";
 import { describe, expect, test } from "vitest";
 import { inFolder, run } from "./command.js";
@@ -146,7 +153,7 @@ describe("mapSurfaces", () => {
         const there = await session.mapPoints("reference", points);
         const back = await session.mapPoints("target", there);
         points.faces.forEach((face, i) => {
-            const at = (list: typeof points, of: number) =>
+            const at = (list: SurfacePoints, of: number) =>
                 position(a.mesh, of, list.barycentrics.subarray(3 * i, 3 * i + 3));
             expect(distance(at(back, back.faces[i] ?? -1), at(points, face))).toBeLessThan(1e-9);
         });

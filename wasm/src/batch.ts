@@ -138,8 +138,8 @@ const columns = [
 
 /** The rows as comma-separated values, with a line of headings. */
 export function batchTable(rows: readonly BatchRow[]): string {
-    const cell = (value: unknown) => {
-        const text = value === undefined || value === null ? "" : String(value);
+    const cell = (value: string | number | boolean | undefined) => {
+        const text = value === undefined ? "" : String(value);
         return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
     };
     return [
