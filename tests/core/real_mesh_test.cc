@@ -1,12 +1,16 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <memory>
 
 #include "apps/embed_job.hh"
+#include "apps/surface_map.hh"
 #include "embedding_checks.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
+#include "layout/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
 #include "test_data.hh"
@@ -224,6 +228,44 @@ TEST(RealMesh, a_coarse_torus_on_a_fine_one)
     ASSERT_TRUE(landmarks.ok()) << landmarks.error().message;
     const EmbedResult result = embed(layout, target, *landmarks);
     EXPECT_LT(result.gap, 0.1);
+}
+
+TEST(RealMesh, a_map_between_two_people_is_near_to_the_known_correspondence)
+{
+    // Two meshes of the same connectivity: a vertex corresponds to itself.
+    LAYOUT_EMBEDDING_NEED_DATA("data/human_woman.obj");
+    const std::array<std::shared_ptr<const TriangleMesh>, 2> people{
+        target_of(mesh_file("data/human_man.obj")), target_of(mesh_file("data/human_woman.obj"))};
+    const std::vector<Index> landmarks = farthest_points(*people[0], 30, 0);
+    const auto made = template_layout(*people[0], landmarks);
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    const auto layout = layout_of(made->mesh);
+    std::array<MappedTarget, 2> mapped;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const EmbedResult result = embed(layout, people[side], landmarks);
+        ASSERT_TRUE(result.refined.has_value());
+        mapped[side] = {{people[side], std::make_shared<const RefinedMesh>(*result.refined)},
+                        landmarks};
+    }
+    const auto map = SurfaceMap::make(layout, mapped[0], mapped[1], {3, 0});
+    ASSERT_TRUE(map.ok()) << map.error().message;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        const TriangleMesh& other = *people[1 - side];
+        double area = 0;
+        for (Index f = 0; f < other.face_count(); ++f) {
+            const auto c = other.face(f);
+            area += (other.position(c[1]) - other.position(c[0]))
+                        .cross(other.position(c[2]) - other.position(c[0]))
+                        .norm() /
+                    2;
+        }
+        double sum = 0;
+        for (Index v = 0; v < other.vertex_count(); ++v) {
+            sum += (position_of(other, map->vertex_images(side)[v]) - other.position(v)).norm();
+        }
+        EXPECT_LT(sum / other.vertex_count() / std::sqrt(area), 0.01);
+    }
+    EXPECT_LT(map->distortion().mean_energy, 0.8 * map->first_distortion().mean_energy);
 }
 
 }  // namespace
