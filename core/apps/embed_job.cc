@@ -51,11 +51,13 @@ bool is_heuristic(Algorithm algorithm)
 }
 
 std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathGraph& graph,
-                                    std::uint64_t field_bytes, const EmbedOptions& options)
+                                    std::uint64_t field_bytes, const EmbedOptions& options,
+                                    std::vector<ClassConstraint> constraints)
 {
     if (options.algorithm == Algorithm::exact) {
         ExactSolverOptions exact;
         exact.gap = options.gap;
+        exact.constraints = std::move(constraints);
         return std::make_unique<ExactSolver>(problem, graph, field_bytes, exact);
     }
     if (options.algorithm == Algorithm::branch_and_bound) {
@@ -79,7 +81,9 @@ struct EmbedJob::Implementation {
     using Clock = std::chrono::steady_clock;
 
     Implementation(EmbeddingProblem problem_in, EmbedOptions options_in, PathGraphMaker maker)
-        : problem(std::move(problem_in)), options(options_in), make_graph(std::move(maker))
+        : problem(std::move(problem_in)),
+          options(std::move(options_in)),
+          make_graph(std::move(maker))
     {}
 
     EmbeddingProblem problem;
@@ -139,8 +143,10 @@ struct EmbedJob::Implementation {
     {
         final_status = status;
         const bool stopped = status == EmbedStatus::cancelled || status == EmbedStatus::time_limit;
-        // What a heuristic finds may be long for no other reason than the heuristic.
-        const bool comparable = options.look_for_doubts && !is_heuristic(options.algorithm);
+        // What a heuristic finds may be long for no other reason than the heuristic, and what is
+        // asked of paths makes others longer.
+        const bool comparable = options.look_for_doubts && !is_heuristic(options.algorithm) &&
+                                options.constraints.empty();
         if (stopped || compared || !comparable) {
             end(status);
             return;
@@ -235,16 +241,30 @@ struct EmbedJob::Implementation {
             return;
         }
         field_bytes = std::min(kMaxFieldBytes, options.memory_limit - needed);
-        build_solver();
-        search_start = seconds();
-        enter(EmbedPhase::search);
+        if (build_solver()) {
+            search_start = seconds();
+            enter(EmbedPhase::search);
+        }
     }
 
-    void build_solver()
+    /// False if that ended the job.
+    bool build_solver()
     {
         solver.reset();
         graph = std::make_unique<PathGraph>(make_graph(*problem.target, {options.seed, attempt}));
-        solver = make_solver(problem, *graph, field_bytes, options);
+        if (!options.constraints.empty() && options.algorithm != Algorithm::exact) {
+            fail(EmbedStatus::failed,
+                 make_error(ErrorCode::invalidOption,
+                            "paths are to be kept or avoided, which only the exact method can do"));
+            return false;
+        }
+        auto constraints = class_constraints(problem, *graph, options.constraints);
+        if (!constraints) {
+            fail(EmbedStatus::failed, constraints.error());
+            return false;
+        }
+        solver = make_solver(problem, *graph, field_bytes, options, std::move(*constraints));
+        return true;
     }
 
     std::uint64_t work_limit() const
@@ -510,14 +530,14 @@ struct EmbedJob::Implementation {
 };
 
 EmbedJob::EmbedJob(EmbeddingProblem problem, EmbedOptions options)
-    : EmbedJob(std::move(problem), options,
+    : EmbedJob(std::move(problem), std::move(options),
                [](const TriangleMesh& target, const PathGraph::Options& graph_options) {
                    return PathGraph::barycentric(target, graph_options);
                })
 {}
 EmbedJob::EmbedJob(EmbeddingProblem problem, EmbedOptions options, PathGraphMaker make_graph)
-    : implementation_(
-          std::make_unique<Implementation>(std::move(problem), options, std::move(make_graph)))
+    : implementation_(std::make_unique<Implementation>(std::move(problem), std::move(options),
+                                                       std::move(make_graph)))
 {}
 EmbedJob::~EmbedJob() = default;
 EmbedJob::EmbedJob(EmbedJob&&) noexcept = default;

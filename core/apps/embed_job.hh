@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/landmark_doubts.hh"
+#include "apps/path_constraints.hh"
 #include "base/error.hh"
 #include "embedding/path_shape.hh"
 #include "embedding/refined_mesh.hh"
@@ -69,10 +70,13 @@ struct EmbedOptions {
     /// Whether to look for changes of the input that would make the embedding far shorter
     /// (apps/landmark_doubts.hh).
     bool look_for_doubts = true;
+    /// What is asked of single paths; for the exact method alone. Costs and bounds are those of the
+    /// embeddings that comply.
+    std::vector<PathConstraint> constraints;
 };
 
 /// A few seconds on the machines of today.
-inline constexpr std::uint64_t kDefaultPatience = 15'000'000;
+inline constexpr std::uint64_t kDefaultPatience = 20'000'000;
 
 enum class EventKind : std::uint32_t {
     /// Another phase began.

@@ -84,6 +84,9 @@ const std::vector<ErrorInfo>& all_error_infos()
          "that "
          "was repaired",
          "load the target first, without repair"},
+        {invalidPath, "invalidPath",
+         "a path that an edge is to keep or to avoid is not on the target",
+         "take the weak path of an earlier embedding with the same target and landmarks"},
     };
     return table;
 }

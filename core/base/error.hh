@@ -55,6 +55,8 @@ enum class ErrorCode : std::uint32_t {
     parametrisationFailed,
     // Landmarks as points.
     landmarkNeedsTarget,
+    // Constraints on paths.
+    invalidPath,
 };
 
 /// What a user can read about one error code.

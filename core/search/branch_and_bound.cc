@@ -305,6 +305,7 @@ BranchAndBound::Outcome BranchAndBound::evaluate_child(WorkBudget& budget)
                 end_child();
                 return Outcome::finished;
             case PathOracle::Outcome::exceeded:
+            case PathOracle::Outcome::given_up:
                 drop(others + answer.bound);
                 end_child();
                 return Outcome::finished;

@@ -6,8 +6,6 @@ namespace layout_embedding {
 
 namespace {
 
-// An expansion in the universal cover takes about as long as so many in the cut surface.
-constexpr std::uint64_t kEnumerationWork = 3;
 // The first exploration of an edge expands a share of the nodes, each further one twice as many.
 constexpr std::uint64_t kFirstExplorationShare = 4;
 constexpr std::uint64_t kMaxFirstExploration = 60'000;
@@ -16,6 +14,10 @@ constexpr unsigned kMaxExplorations = 4;
 // bound, and how many more it gets at a time if it has not.
 constexpr std::uint64_t kEnumeration = 20'000;
 constexpr std::uint64_t kMoreEnumeration = 1000;
+// Units of work that local search gets at a time, at first and then as long as it had less than
+// this share of all.
+constexpr std::uint64_t kLocalSearch = 100'000;
+constexpr std::uint64_t kLocalSearchShare = 10;
 
 std::vector<bool> linear_vertices(const Strands& strands)
 {
@@ -32,8 +34,8 @@ ExactSolver::ExactSolver(const EmbeddingProblem& problem, const PathGraph& graph
                          std::uint64_t field_bytes, const ExactSolverOptions& options)
     : options_(options),
       graph_(graph),
-      space_(problem, graph, field_bytes),
-      start_(problem, space_, true, options.gap),
+      space_(problem, graph, field_bytes, true, options.constraints),
+      start_(problem, space_, kLocalSearch, options.gap),
       selection_(*problem.layout, space_.pool, linear_vertices(space_.strands)),
       enumeration_(space_.strands, space_.fields),
       rest_bounds_(problem.layout->edge_count()),
@@ -75,7 +77,10 @@ Length ExactSolver::base(Index layout_edge) const
 Solver::Outcome ExactSolver::run(WorkBudget& budget)
 {
     while (stage_ != Stage::finished) {
+        const std::uint64_t before = budget.spent();
         const Outcome outcome = step(budget);
+        work_ += budget.spent() - before;
+        is_between_ = outcome != Outcome::running;
         if (outcome != Outcome::finished) {
             return outcome;
         }
@@ -99,6 +104,8 @@ Solver::Outcome ExactSolver::step(WorkBudget& budget)
             return enumerate(budget);
         case Stage::complete:
             return complete(budget);
+        case Stage::improve:
+            return improve(budget);
         case Stage::finished:
             break;
     }
@@ -121,6 +128,11 @@ Solver::Outcome ExactSolver::begin(WorkBudget& budget)
     told_bound_ = start_.root_bound();
     selection_.lower_upper_bound(space_.incumbent.cost());
     learn();
+    for (Index e = 0; e < rest_bounds_.size(); ++e) {
+        if (space_.constraints.keeps(e)) {
+            add_rest_bound(e, {}, kInfiniteLength);  // no other class counts
+        }
+    }
     stage_ = Stage::select;
     return Outcome::finished;
 }
@@ -142,6 +154,11 @@ Solver::Outcome ExactSolver::select(WorkBudget& budget)
 {
     if (gap_is_reached()) {
         stage_ = Stage::finished;
+        return Outcome::finished;
+    }
+    if (is_between_ && start_.local_search_work() * kLocalSearchShare < work_ &&
+        start_.resume(kLocalSearch)) {
+        stage_ = Stage::improve;
         return Outcome::finished;
     }
     const auto outcome = selection_.run(budget);
@@ -289,7 +306,7 @@ Solver::Outcome ExactSolver::examine(WorkBudget& budget)
             answer.outcome == PathOracle::Outcome::found && answer.walk < learned_walks_;
         learn();
         raise_open_bound(answer.bound);
-        if (is_known) {
+        if (is_known || answer.outcome == PathOracle::Outcome::given_up) {
             // The shortest class is known, and was not taken: another one is meant.
             is_exploration_ = false;
             return begin_enumeration(edge, open_limit(), kEnumeration) ? Outcome::finished
@@ -307,7 +324,7 @@ bool ExactSolver::begin_enumeration(Index edge, Length limit, std::uint64_t expa
     if (!space_.embedding.move_strands()) {
         return false;
     }
-    enumeration_.begin(cuts_for(edge), edge, limit);
+    enumeration_.begin(space_.cuts.of(edge), edge, limit);
     expansions_ = 0;
     max_expansions_ = expansions;
     stage_ = Stage::enumerate;
@@ -329,12 +346,12 @@ Solver::Outcome ExactSolver::enumerate(WorkBudget& budget)
             return Outcome::running;
         }
         const std::uint64_t before = enumeration_.expansion_count();
-        const auto outcome = enumeration_.run(
-            std::min(max_expansions_ - expansions_, (budget.left() - 1) / kEnumerationWork + 1));
+        const std::uint64_t work_before = enumeration_.work_count();
+        const auto outcome = enumeration_.run(max_expansions_ - expansions_, budget.left());
         const std::uint64_t expansions = enumeration_.expansion_count() - before;
         expansions_ += expansions;
         counters_.expansions += expansions;
-        budget.charge(expansions * kEnumerationWork);
+        budget.charge(enumeration_.work_count() - work_before);
         switch (outcome) {
             case ClassEnumeration::Outcome::running:
                 break;
@@ -344,8 +361,10 @@ Solver::Outcome ExactSolver::enumerate(WorkBudget& budget)
                 end_enumeration();
                 return Outcome::finished;
             case ClassEnumeration::Outcome::found:
-                space_.pool.add(open.edge, enumeration_.darts());
-                learn();
+                if (space_.constraints.admit(open.edge, enumeration_.darts())) {
+                    space_.pool.add(open.edge, enumeration_.darts());
+                    learn();
+                }
                 break;
         }
     }
@@ -434,23 +453,17 @@ Solver::Outcome ExactSolver::offer()
     return Outcome::improved;
 }
 
-/// Cuts whose root is no end of the edge.
-const CutSystem& ExactSolver::cuts_for(Index layout_edge)
+/// Local search goes on for a while.
+Solver::Outcome ExactSolver::improve(WorkBudget& budget)
 {
-    const Layout& layout = space_.strands.layout();
-    Index root = has_holes_ ? kNone : 0;
-    while (root == layout.tail(2 * layout_edge) || root == layout.head(2 * layout_edge)) {
-        ++root;
+    const Outcome outcome = start_.run(budget);
+    if (outcome == Outcome::improved) {
+        selection_.lower_upper_bound(space_.incumbent.cost());
+    } else if (outcome == Outcome::finished) {
+        learn();
+        stage_ = Stage::select;
     }
-    auto& cuts = cuts_[root];
-    if (!cuts) {
-        std::vector<Index> nodes;
-        for (Index v = 0; v < layout.vertex_count(); ++v) {
-            nodes.push_back(space_.strands.landmark_node(v));
-        }
-        cuts = std::make_unique<CutSystem>(graph_, nodes, root);
-    }
-    return *cuts;
+    return outcome;
 }
 
 SearchCounters ExactSolver::counters() const

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <map>
-#include <memory>
 #include <vector>
 
 #include "layout/embedding_problem.hh"
@@ -10,13 +8,14 @@
 #include "search/solver.hh"
 #include "search/starting_search.hh"
 #include "surface/class_enumeration.hh"
-#include "surface/cut_system.hh"
 
 namespace layout_embedding {
 
 struct ExactSolverOptions {
     /// The gap to be reached; 0 asks for the optimum.
     double gap = 0;
+    /// What is asked of single edges. Bounds are those of the embeddings that comply.
+    std::vector<ClassConstraint> constraints;
 };
 
 /// The best of all embeddings (design, Sec. 3): after a start by insertion, the cheapest selection
@@ -48,7 +47,7 @@ public:
     SearchCounters counters() const override;
 
 private:
-    enum class Stage { start, select, explore, examine, enumerate, complete, finished };
+    enum class Stage { start, select, explore, examine, enumerate, complete, improve, finished };
 
     /// A bound on all classes of an edge that are not known, where it is beside these walks.
     struct RestBound {
@@ -79,13 +78,13 @@ private:
     void end_enumeration();
     Outcome complete(WorkBudget& budget);
     Outcome offer();
+    Outcome improve(WorkBudget& budget);
 
     Length base(Index layout_edge) const;
     Length rest_bound(Index layout_edge) const;
     void add_rest_bound(Index layout_edge, std::vector<Index> blockers, Length bound);
     void raise_open_bound(Length bound);
     Length open_limit() const;
-    const CutSystem& cuts_for(Index layout_edge);
     bool gap_is_reached() const;
     bool bound_has_risen();
 
@@ -95,9 +94,10 @@ private:
     StartingSearch start_;
     ClassSelection selection_;
     ClassEnumeration enumeration_;
-    std::map<Index, std::unique_ptr<CutSystem>> cuts_;  // by root
     bool has_holes_ = false;
     Stage stage_ = Stage::start;
+    std::uint64_t work_ = 0;
+    bool is_between_ = false;  // the last step came to its end
 
     // What the selection has been told of.
     Index learned_walks_ = 0;

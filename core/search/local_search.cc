@@ -16,16 +16,27 @@ constexpr std::uint64_t kInsertionWork = 4;
 }  // namespace
 
 LocalSearch::LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
-                         std::vector<Index> root_walks, std::uint64_t max_work)
+                         std::vector<Index> root_walks)
     : embedding_(embedding),
       oracle_(oracle),
       incumbent_(incumbent),
       root_walks_(std::move(root_walks)),
-      max_work_(max_work),
       current_(incumbent.walks()),
       current_cost_(incumbent.cost())
 {
     find_moves();
+}
+
+void LocalSearch::allow(std::uint64_t work)
+{
+    max_work_ = work_ + work;
+    if (incumbent_.cost() < current_cost_ && !in_trial_) {
+        current_ = incumbent_.walks();
+        current_cost_ = incumbent_.cost();
+        kicks_ = 0;
+        is_exhausted_ = false;
+        find_moves();
+    }
 }
 
 /// Whether an embedded walk could keep another edge from taking its unconstrained path.
@@ -122,6 +133,7 @@ LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
             if (next_move_ < moves_.size()) {
                 begin_trial(moves_[next_move_++]);
             } else if (!begin_kick()) {
+                is_exhausted_ = true;
                 return Outcome::finished;
             }
             const WalkPool& pool = embedding_.pool();
@@ -183,6 +195,7 @@ LocalSearch::Outcome LocalSearch::evaluate(WorkBudget& budget)
                 return Outcome::tied;
             case PathOracle::Outcome::blocked:
             case PathOracle::Outcome::exceeded:
+            case PathOracle::Outcome::given_up:
                 return Outcome::finished;
             case PathOracle::Outcome::found:
                 break;

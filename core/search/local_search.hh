@@ -22,17 +22,25 @@ public:
         running,
         /// The incumbent has improved.
         improved,
+        /// Nothing helps any more, or the work allowed is done.
         finished,
         /// Equal lengths: start again with other perturbations.
         tied,
     };
 
     /// Keeps references. The incumbent exists, and `root_walks` are the unconstrained paths per
-    /// layout edge. Begins no order after `max_work` units. Leaves `embedding` in any state.
+    /// layout edge. Does nothing before allow(). Leaves `embedding` in any state.
     LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
-                std::vector<Index> root_walks, std::uint64_t max_work);
+                std::vector<Index> root_walks);
+
+    /// Begins no order after `work` units more. Goes on from the incumbent if it is better by now.
+    void allow(std::uint64_t work);
 
     Outcome run(WorkBudget& budget);
+    /// Whether nothing helps any more.
+    bool is_exhausted() const { return is_exhausted_; }
+    /// Units of work so far.
+    std::uint64_t work() const { return work_; }
 
 private:
     /// Take the edge at place `from` and insert it at place `to` < `from`.
@@ -51,8 +59,9 @@ private:
     PathOracle& oracle_;
     Incumbent& incumbent_;
     std::vector<Index> root_walks_;
-    std::uint64_t max_work_;
+    std::uint64_t max_work_ = 0;
     std::uint64_t work_ = 0;
+    bool is_exhausted_ = false;
 
     std::vector<Index> current_;  // walks in order: what moves start from
     Length current_cost_ = 0;

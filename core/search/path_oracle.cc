@@ -5,6 +5,15 @@
 
 namespace layout_embedding {
 
+namespace {
+
+// Expansions that looking for a class that an edge may take goes on for, and as many times the
+// nodes: beside strands there may be none at all, and no end to the search.
+constexpr std::uint64_t kMaxEnumeration = 20'000;
+constexpr std::uint64_t kMaxEnumerationPerNode = 4;
+
+}  // namespace
+
 PathOracle::PathOracle(PartialEmbedding& embedding, CutSurfaceSearch& search, bool remember)
     : embedding_(embedding),
       search_(search),
@@ -69,6 +78,14 @@ void PathOracle::remember(Explanation explanation)
     explanations_.push_back(std::move(explanation));
 }
 
+void PathOracle::constrain(const ClassConstraints& constraints, CutSystems& cuts,
+                           DistanceFields& fields)
+{
+    constraints_ = &constraints;
+    cuts_ = &cuts;
+    enumeration_ = std::make_unique<ClassEnumeration>(embedding_.strands(), fields);
+}
+
 PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, WorkBudget& budget)
 {
     if (searching_ == kNone) {
@@ -78,45 +95,116 @@ PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, WorkBudget&
                 ++remembered_count_;
                 return answer;
             }
+            if (keeps(layout_edge) && answer.walk != kNone) {
+                return {Outcome::blocked, kNone, kInfiniteLength};  // its only path does not fit
+            }
         }
         if (!embedding_.move_strands()) {
             return {Outcome::tied, kNone, 0};
         }
         searching_ = layout_edge;
-        search_.begin(layout_edge, limit);
+        limit_ = limit;
+        if (keeps(layout_edge)) {
+            begin_enumeration(layout_edge);
+        } else {
+            is_enumerating_ = false;
+            search_.begin(layout_edge, limit);
+        }
     }
     assert(searching_ == layout_edge);
-    const std::uint64_t before = search_.expansion_count();
-    const auto outcome = search_.run(budget.left());
-    budget.charge(search_.expansion_count() - before);
     Answer answer;
-    answer.bound = search_.lower_bound();
-    switch (outcome) {
-        case CutSurfaceSearch::Outcome::running:
-            return answer;
-        case CutSurfaceSearch::Outcome::tied:
-            answer.outcome = Outcome::tied;
-            break;
-        case CutSurfaceSearch::Outcome::blocked:
-            answer.outcome = Outcome::blocked;
-            break;
-        case CutSurfaceSearch::Outcome::exceeded:
-            answer.outcome = Outcome::exceeded;
-            break;
-        case CutSurfaceSearch::Outcome::found:
-            answer.outcome = Outcome::found;
-            answer.walk = embedding_.pool().add(layout_edge, search_.darts());
-            break;
+    if (!is_enumerating_) {
+        answer = search(layout_edge, budget);
+    }
+    if (is_enumerating_) {
+        answer = enumerate(layout_edge, budget);
+    }
+    if (answer.outcome == Outcome::running) {
+        return answer;
     }
     searching_ = kNone;
     if (remembers_ && answer.outcome != Outcome::tied) {
-        std::vector<Index> blockers = search_.blockers();
+        std::vector<Index> blockers =
+            is_enumerating_ ? enumeration_->blockers() : search_.blockers();
         for (Index& blocker : blockers) {
             blocker = embedding_.walk(blocker);
         }
         remember({layout_edge, answer.bound, answer.walk, std::move(blockers)});
     }
     return answer;
+}
+
+/// The shortest path of all. Where its class is none that the edge may take, classes are to be
+/// enumerated from now on.
+PathOracle::Answer PathOracle::search(Index layout_edge, WorkBudget& budget)
+{
+    const std::uint64_t before = search_.expansion_count();
+    const auto outcome = search_.run(budget.left());
+    budget.charge(search_.expansion_count() - before);
+    const Length bound = search_.lower_bound();
+    switch (outcome) {
+        case CutSurfaceSearch::Outcome::running:
+            return {Outcome::running, kNone, bound};
+        case CutSurfaceSearch::Outcome::tied:
+            return {Outcome::tied, kNone, bound};
+        case CutSurfaceSearch::Outcome::blocked:
+            return {Outcome::blocked, kNone, bound};
+        case CutSurfaceSearch::Outcome::exceeded:
+            return {Outcome::exceeded, kNone, bound};
+        case CutSurfaceSearch::Outcome::found:
+            break;
+    }
+    if (constraints_ != nullptr && !constraints_->admit(layout_edge, search_.darts())) {
+        begin_enumeration(layout_edge);
+        return {Outcome::running, kNone, bound};
+    }
+    return {Outcome::found, embedding_.pool().add(layout_edge, search_.darts()), bound};
+}
+
+void PathOracle::begin_enumeration(Index layout_edge)
+{
+    is_enumerating_ = true;
+    enumeration_left_ =
+        keeps(layout_edge)
+            ? UINT64_MAX
+            : kMaxEnumeration + kMaxEnumerationPerNode * embedding_.strands().graph().node_count();
+    enumeration_->begin(cuts_->of(layout_edge), layout_edge,
+                        std::min(limit_, constraints_->limit(layout_edge)));
+}
+
+/// The shortest path of a class that the edge may take.
+PathOracle::Answer PathOracle::enumerate(Index layout_edge, WorkBudget& budget)
+{
+    while (!budget.is_spent()) {
+        const std::uint64_t before = enumeration_->expansion_count();
+        const std::uint64_t work_before = enumeration_->work_count();
+        const auto outcome = enumeration_->run(enumeration_left_, budget.left());
+        const std::uint64_t expansions = enumeration_->expansion_count() - before;
+        enumeration_left_ -= expansions;
+        budget.charge(enumeration_->work_count() - work_before);
+        const Length frontier = enumeration_->frontier();
+        switch (outcome) {
+            case ClassEnumeration::Outcome::running:
+                if (enumeration_left_ == 0) {
+                    return {Outcome::given_up, kNone, frontier};
+                }
+                break;
+            case ClassEnumeration::Outcome::tied:
+                return {Outcome::tied, kNone, frontier};
+            case ClassEnumeration::Outcome::exceeded:
+                return frontier < constraints_->limit(layout_edge)
+                           ? Answer{Outcome::exceeded, kNone, frontier}
+                           : Answer{Outcome::blocked, kNone, kInfiniteLength};
+            case ClassEnumeration::Outcome::found:
+                if (constraints_->admit(layout_edge, enumeration_->darts())) {
+                    return {Outcome::found,
+                            embedding_.pool().add(layout_edge, enumeration_->darts()),
+                            enumeration_->cost()};
+                }
+                break;
+        }
+    }
+    return {Outcome::running, kNone, enumeration_->frontier()};
 }
 
 }  // namespace layout_embedding

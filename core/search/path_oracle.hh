@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/types.hh"
+#include "search/class_constraints.hh"
 #include "search/partial_embedding.hh"
 #include "search/work_budget.hh"
+#include "surface/class_enumeration.hh"
 #include "surface/cut_surface_search.hh"
 
 namespace layout_embedding {
@@ -25,6 +28,9 @@ public:
         blocked,
         /// Every path is at least `bound` long, which is at least the limit asked for.
         exceeded,
+        /// Of the edge's shorter classes none is one that it may take, and more were not looked at;
+        /// every path is at least `bound` long.
+        given_up,
         /// Two shortest walks of equal length.
         tied,
     };
@@ -36,6 +42,10 @@ public:
 
     /// Keeps references. Without `remember`, every question is a search.
     PathOracle(PartialEmbedding& embedding, CutSurfaceSearch& search, bool remember = true);
+
+    /// From now on only paths of classes that the edges may take count. Keeps references. An edge
+    /// that is kept in a class is to be asked for without a limit before others are embedded.
+    void constrain(const ClassConstraints& constraints, CutSystems& cuts, DistanceFields& fields);
 
     /// The shortest path of an edge that is not embedded, in the present state. Paths of length
     /// `limit` or more do not matter. Charges the budget for the states it expands.
@@ -61,6 +71,11 @@ public:
     /// All that were found so far, oldest first.
     const std::vector<Explanation>& explanations() const { return explanations_; }
 
+    /// States expanded by enumerations of classes.
+    std::uint64_t enumerated_count() const
+    {
+        return enumeration_ ? enumeration_->expansion_count() : 0;
+    }
     /// Questions answered without a search.
     std::uint64_t remembered_count() const { return remembered_count_; }
 
@@ -68,11 +83,25 @@ private:
     bool applies(const Explanation& explanation) const;
     void remember(Explanation explanation);
     Answer recall(Index layout_edge, Length limit) const;
+    Answer search(Index layout_edge, WorkBudget& budget);
+    void begin_enumeration(Index layout_edge);
+    Answer enumerate(Index layout_edge, WorkBudget& budget);
+    bool keeps(Index layout_edge) const
+    {
+        return constraints_ != nullptr && constraints_->keeps(layout_edge);
+    }
 
     PartialEmbedding& embedding_;
     CutSurfaceSearch& search_;
     bool remembers_;
+    const ClassConstraints* constraints_ = nullptr;
+    CutSystems* cuts_ = nullptr;
+    std::unique_ptr<ClassEnumeration> enumeration_;
+    // The question that is being answered, and how.
     Index searching_ = kNone;
+    Length limit_ = 0;
+    bool is_enumerating_ = false;
+    std::uint64_t enumeration_left_ = 0;
     std::vector<Explanation> explanations_;
     /// Per layout edge: its explanations, the largest bound first, of equal ones those with a walk.
     std::vector<std::vector<Index>> by_bound_;

@@ -13,6 +13,8 @@ constexpr std::uint64_t kRestartUnit = 64;
 constexpr Index kGoodDistance = 3;  // learned clauses of few blocks are kept
 // Clauses looked at per unit of work: an expanded node of a path search takes about as long.
 constexpr std::uint64_t kClausesPerWork = 12;
+// Storing a clause takes as long as looking at so many.
+constexpr std::uint64_t kLooksPerStored = 4;
 
 /// 1 1 2 1 1 2 4 ...: how long the i-th run between restarts is (Luby, Sinclair, Zuckerman 1993).
 std::uint64_t luby(std::uint64_t i)
@@ -56,11 +58,13 @@ SatSolver::Literal SatSolver::add_variable(bool preferred)
 SatSolver::Clause SatSolver::store(std::span<const Literal> literals, Index block_distance)
 {
     const auto clause = static_cast<Clause>(arena_.size());
+    uncharged_ += kLooksPerStored;
     arena_.push_back(static_cast<Index>(literals.size()));
     arena_.push_back(block_distance);
     arena_.insert(arena_.end(), literals.begin(), literals.end());
-    watches_[literals[0]].push_back({clause, literals[1]});
-    watches_[literals[1]].push_back({clause, literals[0]});
+    const Index is_binary = literals.size() == 2 ? 1 : 0;
+    watches_[literals[0]].push_back({clause, is_binary, literals[1]});
+    watches_[literals[1]].push_back({clause, is_binary, literals[0]});
     if (block_distance > 0) {
         learned_.push_back(clause);
     }
@@ -121,26 +125,29 @@ SatSolver::Clause SatSolver::propagate()
                 continue;
             }
             ++uncharged_;
-            Literal* of_clause = literals(watch.clause);
-            if (of_clause[0] == falsified) {
-                std::swap(of_clause[0], of_clause[1]);
+            Literal first = watch.blocker;
+            if (watch.is_binary == 0) {
+                Literal* of_clause = literals(watch.clause);
+                if (of_clause[0] == falsified) {
+                    std::swap(of_clause[0], of_clause[1]);
+                }
+                first = of_clause[0];
+                if (first != watch.blocker && is_true(first)) {
+                    watches[kept++] = {watch.clause, 0, first};
+                    continue;
+                }
+                const Index count = size(watch.clause);
+                Index k = 2;
+                while (k < count && is_false(of_clause[k])) {
+                    ++k;
+                }
+                if (k < count) {
+                    std::swap(of_clause[1], of_clause[k]);
+                    watches_[of_clause[1]].push_back({watch.clause, 0, first});
+                    continue;
+                }
             }
-            const Literal first = of_clause[0];
-            if (first != watch.blocker && is_true(first)) {
-                watches[kept++] = {watch.clause, first};
-                continue;
-            }
-            const Index count = size(watch.clause);
-            Index k = 2;
-            while (k < count && is_false(of_clause[k])) {
-                ++k;
-            }
-            if (k < count) {
-                std::swap(of_clause[1], of_clause[k]);
-                watches_[of_clause[1]].push_back({watch.clause, first});
-                continue;
-            }
-            watches[kept++] = {watch.clause, first};
+            watches[kept++] = {watch.clause, watch.is_binary, first};
             if (is_false(first)) {
                 while (++i < watches.size()) {
                     watches[kept++] = watches[i];

@@ -59,8 +59,9 @@ private:
     // A clause is a place in arena_: size, then block distance (0: not learned), then literals.
     using Clause = Index;
     struct Watch {
-        Clause clause;
-        Literal blocker;
+        Clause clause : 31;
+        Index is_binary : 1;  // the blocker is the only other literal
+        Literal blocker;      // another literal of the clause
     };
 
     Index size(Clause c) const { return arena_[c]; }

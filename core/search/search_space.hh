@@ -1,11 +1,13 @@
 #pragma once
 
 #include "layout/embedding_problem.hh"
+#include "search/class_constraints.hh"
 #include "search/incumbent.hh"
 #include "search/partial_embedding.hh"
 #include "search/path_oracle.hh"
 #include "search/solver.hh"
 #include "surface/cut_surface_search.hh"
+#include "surface/cut_systems.hh"
 #include "surface/distance_field.hh"
 #include "surface/strands.hh"
 #include "surface/walk_pool.hh"
@@ -18,14 +20,20 @@ namespace layout_embedding {
 struct SearchSpace {
     /// Keeps a reference to `graph`. `field_bytes`: see DistanceFields.
     SearchSpace(const EmbeddingProblem& problem, const PathGraph& graph, std::uint64_t field_bytes,
-                bool remember = true)
+                bool remember = true, const std::vector<ClassConstraint>& class_constraints = {})
         : strands(problem, graph),
           fields(graph, strands.passable(), field_bytes),
           search(strands, fields),
+          cuts(strands),
+          constraints(cuts, graph, class_constraints),
           pool(strands),
           embedding(strands, pool),
           oracle(embedding, search, remember)
-    {}
+    {
+        if (!constraints.empty()) {
+            oracle.constrain(constraints, cuts, fields);
+        }
+    }
     SearchSpace(const SearchSpace&) = delete;
     SearchSpace& operator=(const SearchSpace&) = delete;
 
@@ -34,7 +42,7 @@ struct SearchSpace {
     {
         SearchCounters counters;
         counters.searches = search.search_count();
-        counters.expansions = search.expansion_count();
+        counters.expansions = search.expansion_count() + oracle.enumerated_count();
         counters.field_nodes = fields.settled_count();
         counters.insertions = embedding.insertion_count();
         counters.remembered = oracle.remembered_count();
@@ -53,6 +61,8 @@ struct SearchSpace {
     Strands strands;
     DistanceFields fields;
     CutSurfaceSearch search;
+    CutSystems cuts;
+    ClassConstraints constraints;
     WalkPool pool;
     PartialEmbedding embedding;
     PathOracle oracle;

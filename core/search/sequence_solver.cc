@@ -4,11 +4,19 @@
 
 namespace layout_embedding {
 
+namespace {
+
+// Where local search goes on for long, bounds are what is missing.
+constexpr std::uint64_t kLocalSearchWork = 6'000'000;
+
+}  // namespace
+
 SequenceSolver::SequenceSolver(const EmbeddingProblem& problem, const PathGraph& graph,
                                std::uint64_t field_bytes, const SequenceSolverOptions& options)
     : space_(problem, graph, field_bytes, options.remember),
       start_(options.greedy_start
-                 ? std::make_unique<StartingSearch>(problem, space_, options.local_search,
+                 ? std::make_unique<StartingSearch>(problem, space_,
+                                                    options.local_search ? kLocalSearchWork : 0,
                                                     options.branch_and_bound.gap)
                  : nullptr),
       started_(!options.greedy_start),

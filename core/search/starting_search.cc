@@ -6,9 +6,6 @@ namespace layout_embedding {
 
 namespace {
 
-// Where local search goes on for long, bounds are what is missing.
-constexpr std::uint64_t kMaxLocalSearchWork = 6'000'000;
-
 // One after the other, until one ends in an embedding. On closed surfaces of genus 0 the first
 // does.
 constexpr std::array<GreedyRule, 4> kRules{GreedyRule::plain(), GreedyRule::schreiner(),
@@ -17,19 +14,44 @@ constexpr std::array<GreedyRule, 4> kRules{GreedyRule::plain(), GreedyRule::schr
 }  // namespace
 
 StartingSearch::StartingSearch(const EmbeddingProblem& problem, SearchSpace& space,
-                               bool local_search, double gap)
+                               std::uint64_t local_search, double gap)
     : problem_(problem),
       space_(space),
-      wants_local_search_(local_search),
+      first_local_search_(local_search),
       gap_(gap),
-      greedy_(std::make_unique<GreedySearch>(problem, space.strands, space.search, kRules[0]))
-{}
+      stage_(space.constraints.empty() ? Stage::greedy : Stage::find_roots)
+{
+    if (stage_ == Stage::greedy) {
+        greedy_ = std::make_unique<GreedySearch>(problem, space.strands, space.search, kRules[0]);
+    }
+}
+
+double StartingSearch::progress() const
+{
+    return greedy_ ? greedy_->progress()
+                   : static_cast<double>(next_root_) / space_.embedding.layout().edge_count();
+}
 
 Solver::Outcome StartingSearch::run(WorkBudget& budget)
 {
     Solver::Outcome outcome = Solver::Outcome::finished;
     while (outcome == Solver::Outcome::finished && stage_ != Stage::finished) {
-        outcome = stage_ == Stage::greedy ? run_greedy(budget) : run_local_search(budget);
+        switch (stage_) {
+            case Stage::greedy:
+                outcome = run_greedy(budget);
+                break;
+            case Stage::find_roots:
+                outcome = find_roots(budget);
+                break;
+            case Stage::look_ahead:
+                outcome = look_ahead(budget);
+                break;
+            case Stage::local_search:
+                outcome = run_local_search(budget);
+                break;
+            case Stage::finished:
+                break;
+        }
     }
     return outcome;
 }
@@ -67,13 +89,11 @@ Solver::Outcome StartingSearch::run_greedy(WorkBudget& budget)
             return take_greedy_embedding();
         case GreedySearch::Outcome::failed:
             empty_strands();
-            if (root_bound_ == kInfiniteLength || ++rule_ == kRules.size()) {
+            if (root_bound_ == kInfiniteLength) {
                 stage_ = Stage::finished;
                 return Solver::Outcome::finished;
             }
-            greedy_ = std::make_unique<GreedySearch>(problem_, space_.strands, space_.search,
-                                                     kRules[rule_]);
-            return Solver::Outcome::advanced;
+            return after_insertion();
         case GreedySearch::Outcome::tied:
             return Solver::Outcome::tied;
     }
@@ -88,24 +108,137 @@ Solver::Outcome StartingSearch::take_greedy_embedding()
     }
     empty_strands();
     space_.embedding.go_to(walks);
-    if (space_.incumbent.offer(space_.embedding) == Incumbent::Outcome::tied) {
+    const auto outcome = space_.incumbent.offer(space_.embedding);
+    space_.embedding.go_to({});
+    if (outcome == Incumbent::Outcome::tied) {
         return Solver::Outcome::tied;
     }
-    stage_ = wants_local_search_ ? Stage::local_search : Stage::finished;
-    if (wants_local_search_) {
-        local_search_ = std::make_unique<LocalSearch>(
-            space_.embedding, space_.oracle, space_.incumbent, root_walks_, kMaxLocalSearchWork);
-    } else {
-        space_.embedding.go_to({});
-    }
+    after_insertion();
     return Solver::Outcome::improved;
+}
+
+/// Decides what comes after an insertion, greedy or with a look ahead. Nothing is embedded.
+Solver::Outcome StartingSearch::after_insertion()
+{
+    if (!space_.embedding.move_strands()) {
+        return Solver::Outcome::tied;
+    }
+    if (space_.incumbent.exists() && (first_local_search_ == 0 || gap_is_reached())) {
+        stage_ = Stage::finished;
+    } else if (!has_looked_ahead_ && first_local_search_ > 0) {
+        begin_lookahead();
+    } else if (space_.incumbent.exists()) {
+        begin_local_search(first_local_search_);
+    } else if (++rule_ < kRules.size() && space_.constraints.empty()) {
+        greedy_ =
+            std::make_unique<GreedySearch>(problem_, space_.strands, space_.search, kRules[rule_]);
+        stage_ = Stage::greedy;
+    } else {
+        stage_ = Stage::finished;
+    }
+    return Solver::Outcome::advanced;
+}
+
+bool StartingSearch::gap_is_reached() const
+{
+    const Length cost = space_.incumbent.cost();
+    return static_cast<double>(cost - root_bound_) <= gap_ * static_cast<double>(cost);
+}
+
+/// The unconstrained path of every edge, of the classes it may take.
+Solver::Outcome StartingSearch::find_roots(WorkBudget& budget)
+{
+    for (; next_root_ < space_.embedding.layout().edge_count(); ++next_root_) {
+        const auto answer = space_.oracle.find(next_root_, kInfiniteLength, budget);
+        switch (answer.outcome) {
+            case PathOracle::Outcome::running:
+                return Solver::Outcome::running;
+            case PathOracle::Outcome::tied:
+                return Solver::Outcome::tied;
+            case PathOracle::Outcome::found:
+                break;
+            default:
+                root_bound_ = kInfiniteLength;
+                stage_ = Stage::finished;
+                return Solver::Outcome::bounded;
+        }
+        root_walks_.push_back(answer.walk);
+    }
+    for (const Index walk : root_walks_) {
+        root_bound_ += space_.pool.cost(walk);
+    }
+    begin_lookahead();
+    return Solver::Outcome::bounded;
+}
+
+void StartingSearch::begin_lookahead()
+{
+    // What is constrained comes first, while there is room for it.
+    std::vector<Index> first;
+    for (const bool kept : {true, false}) {
+        for (Index e = 0; e < root_walks_.size(); ++e) {
+            if (space_.constraints.constrains(e) && space_.constraints.keeps(e) == kept) {
+                first.push_back(e);
+            }
+        }
+    }
+    lookahead_ = std::make_unique<LookaheadInsertion>(space_.embedding, space_.oracle, root_walks_,
+                                                      std::move(first));
+    stage_ = Stage::look_ahead;
+    has_looked_ahead_ = true;
+}
+
+Solver::Outcome StartingSearch::look_ahead(WorkBudget& budget)
+{
+    Incumbent::Outcome offered = Incumbent::Outcome::rejected;
+    switch (lookahead_->run(budget)) {
+        case LookaheadInsertion::Outcome::running:
+            return Solver::Outcome::running;
+        case LookaheadInsertion::Outcome::tied:
+            return Solver::Outcome::tied;
+        case LookaheadInsertion::Outcome::failed:
+            break;
+        case LookaheadInsertion::Outcome::complete:
+            offered = space_.incumbent.offer(space_.embedding);
+            break;
+    }
+    if (offered == Incumbent::Outcome::tied) {
+        return Solver::Outcome::tied;
+    }
+    space_.embedding.go_to({});
+    lookahead_.reset();
+    const Solver::Outcome outcome = after_insertion();
+    return offered == Incumbent::Outcome::accepted && outcome != Solver::Outcome::tied
+               ? Solver::Outcome::improved
+               : outcome;
+}
+
+void StartingSearch::begin_local_search(std::uint64_t work)
+{
+    local_search_ = std::make_unique<LocalSearch>(space_.embedding, space_.oracle, space_.incumbent,
+                                                  root_walks_);
+    local_search_->allow(work);
+    stage_ = Stage::local_search;
+}
+
+bool StartingSearch::resume(std::uint64_t local_search)
+{
+    if (!space_.incumbent.exists()) {
+        return false;
+    }
+    if (!local_search_) {
+        begin_local_search(local_search);
+        return true;
+    }
+    local_search_->allow(local_search);
+    stage_ = local_search_->is_exhausted() ? Stage::finished : Stage::local_search;
+    return stage_ == Stage::local_search;
 }
 
 Solver::Outcome StartingSearch::run_local_search(WorkBudget& budget)
 {
-    const Length cost = space_.incumbent.cost();
-    const double gap = static_cast<double>(cost - root_bound_) / static_cast<double>(cost);
-    const auto outcome = gap > gap_ ? local_search_->run(budget) : LocalSearch::Outcome::finished;
+    const auto outcome =
+        gap_is_reached() ? LocalSearch::Outcome::finished : local_search_->run(budget);
     switch (outcome) {
         case LocalSearch::Outcome::running:
             return Solver::Outcome::running;
@@ -117,7 +250,6 @@ Solver::Outcome StartingSearch::run_local_search(WorkBudget& budget)
             break;
     }
     space_.embedding.go_to({});
-    local_search_.reset();
     stage_ = Stage::finished;
     return Solver::Outcome::finished;
 }

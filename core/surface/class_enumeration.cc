@@ -11,6 +11,10 @@ namespace {
 // Marks the goal's labels in the queue, so that they leave it last among equals: only then have all
 // walks of the same length been seen.
 constexpr Index kIsGoal = Index{1} << 31U;
+// An expansion takes about as long as so many in the cut surface, and that as looking at so many
+// labels.
+constexpr std::uint64_t kExpansionWork = 3;
+constexpr std::uint64_t kLabelsPerWork = 48;
 
 }  // namespace
 
@@ -55,16 +59,23 @@ Length ClassEnumeration::frontier() const
     return queue_.empty() ? limit_ : std::min(limit_, queue_.top().estimate);
 }
 
-ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions)
+std::uint64_t ClassEnumeration::work_count() const
+{
+    return kExpansionWork * expansion_count_ + label_count_ / kLabelsPerWork;
+}
+
+ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions,
+                                                std::uint64_t max_work)
 {
     const PathGraph& graph = strands_.graph();
+    const std::uint64_t before = work_count();
     while (!queue_.empty()) {
         const Index current = queue_.top().label & ~kIsGoal;
         if (labels_[current].is_closed) {
             queue_.pop();
             continue;
         }
-        if (max_expansions-- == 0) {
+        if (max_expansions-- == 0 || work_count() - before >= max_work) {
             return Outcome::running;
         }
         queue_.pop();
@@ -73,7 +84,9 @@ ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions)
         const Label label = labels_[current];
         const Index node = strands_.node_of_state(label.state);
         if (node == goal_) {
-            if (classes_.insert(goal_class(label.word)).second) {
+            // The word that stands for all that differ by turns around the goal.
+            if (classes_.insert(words_.without_turns(label.word, cuts_->letter(goal_vertex_)))
+                    .second) {
                 cost_ = label.distance;
                 const bool tied = collect_walk(current);
                 if (!walk_crosses_itself(graph, darts_)) {
@@ -137,6 +150,7 @@ void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index str
     Index found = first;
     while (found != kNone && labels_[found].word != word) {
         found = labels_[found].next;
+        ++label_count_;
     }
     if (found == kNone) {
         if (first == kNone) {
@@ -176,10 +190,12 @@ bool ClassEnumeration::crosses_itself(Index label)
     // Of those who have, the walk itself can only be one with a word that it has had.
     ++mark_;
     for (Index l = parent; l != kNone; l = labels_[labels_[l].entry].parent) {
+        ++label_count_;
         labels_[labels_[l].entry].mark = mark_;
     }
     bool may_return = false;
     for (Index l = first_labels_[state]; l != kNone && !may_return; l = labels_[l].next) {
+        ++label_count_;
         may_return = labels_[l].distance < labels_[parent].distance &&
                      labels_[labels_[l].entry].mark == mark_;
     }
@@ -190,6 +206,7 @@ bool ClassEnumeration::crosses_itself(Index label)
     reversed_.clear();
     bool returns = false;
     for (Index l = label; l != kNone; l = labels_[l].parent) {
+        ++label_count_;
         reversed_.push_back(graph.twin(labels_[l].parent_dart));
         returns = returns || (labels_[l].state == state && l != parent);
     }
@@ -204,16 +221,6 @@ bool ClassEnumeration::crosses_itself(Index label)
         }
     }
     return false;
-}
-
-/// The word that stands for all that differ by turns around the goal.
-Index ClassEnumeration::goal_class(Index word)
-{
-    const Words::Letter own = cuts_->letter(goal_vertex_);
-    while (word != Words::kEmpty && (words_.last(word) == own || words_.last(word) == -own)) {
-        word = words_.prefix(word);
-    }
-    return word;
 }
 
 std::vector<Index> ClassEnumeration::blockers() const

@@ -38,8 +38,8 @@ public:
     /// `cuts`, which has to live as long as the enumeration. The strands must not change meanwhile.
     void begin(const CutSystem& cuts, Index layout_edge, Length limit = kInfiniteLength);
 
-    /// Continues for at most `max_expansions` expansions, up to the next class.
-    Outcome run(std::uint64_t max_expansions = UINT64_MAX);
+    /// Continues, up to the next class, until so many expansions or so much work is done.
+    Outcome run(std::uint64_t max_expansions = UINT64_MAX, std::uint64_t max_work = UINT64_MAX);
 
     /// The walk from tail(2e) to head(2e), after `found`.
     const std::vector<Index>& darts() const { return darts_; }
@@ -51,6 +51,8 @@ public:
     std::vector<Index> blockers() const;
     /// States expanded by all enumerations of this object.
     std::uint64_t expansion_count() const { return expansion_count_; }
+    /// The work of all enumerations of this object, in expansions in the cut surface.
+    std::uint64_t work_count() const;
 
 private:
     /// What is known of a state of the cut surface with a word.
@@ -77,7 +79,6 @@ private:
 
     void relax(Index from_label, Index dart, Index slot, Index strand_count);
     bool crosses_itself(Index label);
-    Index goal_class(Index word);
     bool collect_walk(Index label);
 
     const Strands& strands_;
@@ -105,6 +106,7 @@ private:
     std::vector<Index> bordering_;
     Length cost_ = 0;
     std::uint64_t expansion_count_ = 0;
+    std::uint64_t label_count_ = 0;  // looked at on the way to others
 };
 
 /// Whether two passes of a walk cross: a stretch that both share, perhaps one node, is entered and

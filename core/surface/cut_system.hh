@@ -23,6 +23,14 @@ public:
     Letter last(Index word) const { return nodes_[word].letter; }
     /// The word without its last letter.
     Index prefix(Index word) const { return nodes_[word].prefix; }
+    /// The word without powers of a letter at its end.
+    Index without_turns(Index word, Letter letter) const
+    {
+        while (word != kEmpty && (last(word) == letter || last(word) == -letter)) {
+            word = prefix(word);
+        }
+        return word;
+    }
     Index size() const { return static_cast<Index>(nodes_.size()); }
 
 private:

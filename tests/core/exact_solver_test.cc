@@ -1,6 +1,7 @@
 #include "search/exact_solver.hh"
 
 #include <algorithm>
+#include <functional>
 #include <gtest/gtest.h>
 
 #include "embedding_checks.hh"
@@ -18,16 +19,18 @@ using test::Instance;
 
 constexpr std::uint64_t kFieldBytes = std::uint64_t{1} << 30U;
 
-/// A solver run to its end, whose bounds and incumbents are looked at on the way.
+/// A solver run to its end, or until `max_work` is spent, whose bounds and incumbents are looked at
+/// on the way.
 template <typename Solver, typename Options>
 struct Run {
-    Run(const EmbeddingProblem& problem, const Options& options, std::uint64_t slice = UINT64_MAX)
+    Run(const EmbeddingProblem& problem, const Options& options, std::uint64_t slice = UINT64_MAX,
+        std::uint64_t max_work = UINT64_MAX)
         : graph(PathGraph::barycentric(*problem.target, {1, 0})),
           solver(problem, graph, kFieldBytes, options)
     {
         Length bound = 0;
         Length cost = kInfiniteLength;
-        for (;;) {
+        while (work < max_work) {
             WorkBudget budget(slice);
             const auto outcome = solver.run(budget);
             work += budget.spent();
@@ -45,6 +48,7 @@ struct Run {
                 happened.emplace_back(outcome, work);
             }
             if (outcome == Solver::Outcome::finished || outcome == Solver::Outcome::tied) {
+                has_finished = true;
                 return;
             }
         }
@@ -53,6 +57,7 @@ struct Run {
     PathGraph graph;
     Solver solver;
     std::uint64_t work = 0;
+    bool has_finished = false;
     std::vector<std::pair<layout_embedding::Solver::Outcome, std::uint64_t>> happened;
 };
 
@@ -81,7 +86,12 @@ std::vector<Instance> small_instances(std::uint64_t seed, int count)
 /// enumeration and the test of two walks for a crossing.
 class AllSelections {
 public:
-    AllSelections(const EmbeddingProblem& problem, Length limit)
+    /// Whether a layout edge may be in the class of a shortest walk.
+    using Filter = std::function<bool(Index, const std::vector<Index>&)>;
+
+    AllSelections(
+        const EmbeddingProblem& problem, Length limit,
+        const Filter& admits = [](Index, const auto&) { return true; })
         : ground_(problem, 1), best_(limit), classes_(problem.layout->edge_count())
     {
         const Layout& layout = ground_.strands.layout();
@@ -107,7 +117,9 @@ public:
             ClassEnumeration enumeration(ground_.strands, ground_.fields);
             enumeration.begin(cuts, e, shortest[e] + (limit - root));
             while (enumeration.run() == ClassEnumeration::Outcome::found) {
-                classes_[e].push_back({enumeration.cost(), enumeration.darts()});
+                if (admits(e, enumeration.darts())) {
+                    classes_[e].push_back({enumeration.cost(), enumeration.darts()});
+                }
             }
         }
         rest_.assign(classes_.size() + 1, 0);
@@ -248,6 +260,88 @@ TEST(ExactSolver, finds_the_best_of_all_selections_that_leave_the_holes_where_th
     EXPECT_GT(without_start, 2);
 }
 
+TEST(ExactSolver, finds_the_best_of_all_selections_that_comply_with_constraints)
+{
+    int dearer = 0;
+    int others_follow = 0;
+    int count = 0;
+    Random random(208);
+    std::vector<Instance> instances = test::tiny_instances(209, 24);
+    for (Instance& instance : instances_with_holes(210, 3)) {
+        instances.push_back(std::move(instance));
+    }
+    for (const Instance& instance : instances) {
+        SCOPED_TRACE(instance.name);
+        const Layout& layout = *instance.problem.layout;
+        const ExactRun free(instance.problem, {});
+        ASSERT_NE(free.solver.incumbent_cost(), kInfiniteLength);
+        const auto edge = static_cast<Index>(random.below(layout.edge_count()));
+        const auto before = free.solver.incumbent().paths[edge].darts;
+
+        ExactSolverOptions options;
+        options.constraints = {{edge, false, before}};
+        const ExactRun avoiding(instance.problem, options, 5000, 200'000);
+        if (!avoiding.has_finished) {
+            continue;  // on such coarse targets the next route can be very long
+        }
+        const Length cost = avoiding.solver.incumbent_cost();
+        ASSERT_NE(cost, kInfiniteLength);
+        EXPECT_EQ(avoiding.solver.lower_bound(), cost);
+        EXPECT_GE(cost, free.solver.incumbent_cost());
+        const AllSelections others(instance.problem, cost + 1, [&](Index e, const auto& darts) {
+            return e != edge || darts != before;
+        });
+        EXPECT_EQ(cost, others.best());
+        const auto after = avoiding.solver.incumbent().paths[edge].darts;
+        EXPECT_NE(after, before);
+
+        // Kept along a walk of the same class that goes there and back on its way.
+        auto detour = after;
+        const PathGraph& graph = avoiding.graph;
+        const Index aside = graph.first_dart(graph.head(after[0]));
+        const bool is_free = graph.head(aside) != graph.tail(after[0]) &&
+                             graph.element(graph.head(aside)).kind != NodeKind::vertex;
+        if (is_free) {
+            detour.insert(detour.begin() + 1, {aside, graph.twin(aside)});
+        }
+        options.constraints = {{edge, true, detour}};
+        const ExactRun keeping(instance.problem, options);
+        EXPECT_EQ(keeping.solver.incumbent_cost(), cost);
+        EXPECT_EQ(keeping.solver.lower_bound(), cost);
+        EXPECT_EQ(keeping.solver.incumbent().paths[edge].darts, after);
+
+        // Kept as before, and an edge that is not may be where it was.
+        options.constraints = {{edge, true, before}};
+        const ExactRun again(instance.problem, options);
+        EXPECT_EQ(again.solver.incumbent_cost(), free.solver.incumbent_cost());
+
+        ++count;
+        dearer += cost > free.solver.incumbent_cost() ? 1 : 0;
+        for (Index e = 0; e < layout.edge_count(); ++e) {
+            if (e != edge && avoiding.solver.incumbent().paths[e].darts !=
+                                 free.solver.incumbent().paths[e].darts) {
+                ++others_follow;
+                break;
+            }
+        }
+    }
+    EXPECT_EQ(dearer, count);
+    EXPECT_GT(count, 6);
+    EXPECT_GT(others_follow, 3);
+}
+
+TEST(ExactSolver, says_so_where_no_embedding_complies_with_constraints)
+{
+    const Instance instance = test::tiny_instances(211, 1)[0];
+    const ExactRun free(instance.problem, {});
+    const auto& darts = free.solver.incumbent().paths[0].darts;
+    ExactSolverOptions options;
+    options.constraints = {{0, true, darts}, {0, false, darts}};
+    const ExactRun none(instance.problem, options);
+    EXPECT_EQ(none.solver.incumbent_cost(), kInfiniteLength);
+    EXPECT_EQ(none.solver.lower_bound(), kInfiniteLength);
+}
+
 TEST(ExactSolver, is_never_worse_than_the_best_insertion_sequence_nor_bounds_what_is_better)
 {
     int equal = 0;
@@ -290,7 +384,7 @@ TEST(ExactSolver, stops_at_the_gap_asked_for)
     for (const Instance& instance : small_instances(205, 14)) {
         SCOPED_TRACE(instance.name);
         const ExactRun whole(instance.problem, {});
-        const ExactRun rough(instance.problem, {0.1});
+        const ExactRun rough(instance.problem, {.gap = 0.1, .constraints = {}});
         const Length cost = rough.solver.incumbent_cost();
         EXPECT_GE(rough.solver.lower_bound(), cost - cost / 10);
         EXPECT_LE(rough.solver.lower_bound(), whole.solver.incumbent_cost());

@@ -131,7 +131,8 @@ struct LocalSearchGround {
         }
         embedding.go_to(walks);
         EXPECT_EQ(incumbent.offer(embedding), Incumbent::Outcome::accepted);
-        search.emplace(embedding, oracle, incumbent, root_walks, max_work);
+        search.emplace(embedding, oracle, incumbent, root_walks);
+        search->allow(max_work);
     }
 
     test::SearchGround ground;
