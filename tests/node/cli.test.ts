@@ -36,6 +36,36 @@ function errorOf(stdout: string): { code: string; message: string } {
 
 describe("embed", () => {
     test(
+        "takes_another_route_for_an_edge_of_an_earlier_output",
+        withInputs(async (cwd) => {
+            const first = await run(["embed", ...inputs, "--output", "a", "--json"], { cwd });
+            const before = JSON.parse(first.stdout) as EmbeddingDocument;
+            const again = ["embed", "layout.obj", "target.obj", "--previous", "a", "--output", "b"];
+            const second = await run([...again, "--avoid", "5", "--keep", "0,1", "--json"], {
+                cwd,
+            });
+            expect(second).toMatchObject({ exitCode: 0, stderr: "" });
+            const after = JSON.parse(second.stdout) as EmbeddingDocument;
+            expect(after.landmarks).toEqual(before.landmarks);
+            expect(after.cost).toBeGreaterThan(before.cost!);
+            expect(after.constraints.map(({ rule, edge }) => [rule, edge])).toEqual([
+                ["keep", 0],
+                ["keep", 1],
+                ["avoid", 5],
+            ]);
+            const check = await run(["check", "b", "layout.obj", "target.obj"], { cwd });
+            expect(check.exitCode).toBe(0);
+            for (const wrong of [
+                ["embed", ...inputs, "--avoid", "5"],
+                [...again, "--avoid", "x"],
+                [...again, "--avoid", "12"],
+            ]) {
+                expect((await run(wrong, { cwd })).exitCode).toBe(2);
+            }
+        }),
+    );
+
+    test(
         "writes_three_files_that_agree_with_each_other_and_with_its_output",
         withInputs(async (cwd) => {
             const finished = await run(["embed", ...inputs, "--output", "a/b", "--json"], { cwd });

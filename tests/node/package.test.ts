@@ -74,6 +74,46 @@ describe("an embedding", () => {
         await session.dispose();
     });
 
+    test("takes_other_routes_or_keeps_them_as_asked_and_the_rest_follows", async () => {
+        const session = await Session.create();
+        await session.loadLayout(problem.layout);
+        await session.loadTarget(problem.target);
+        await session.setLandmarks(displacedLandmarks);
+        const best = await session.solve({ gap: 0 });
+        const disputed = best.edges[5]!;
+        const avoid = { rule: "avoid", edge: 5, path: disputed.weakPath } as const;
+        const other = await session.solve({ gap: 0, constraints: [avoid] });
+        expect(other.status).toBe("optimal");
+        expect(other.exactCost! > best.exactCost!).toBe(true);
+        expect(other.edges[5]!.weakPath).not.toEqual(disputed.weakPath);
+        expect(await session.check({ refined: other.refined!, edges: other.edges })).toEqual([]);
+        expect(session.embeddingDocument().constraints).toEqual([avoid]);
+        // Kept on its new route, the edge asks for just as much; on both, for what there is not.
+        const keep = { rule: "keep", edge: 5, path: other.edges[5]!.weakPath } as const;
+        const kept = await session.solve({ gap: 0, constraints: [keep] });
+        expect(kept.exactCost).toBe(other.exactCost);
+        const none = await session.solve({ constraints: [keep, { ...keep, rule: "avoid" }] });
+        expect(none.status).toBe("infeasible");
+        const refused = async (constraint: object, algorithm?: "greedy") =>
+            session.solve({
+                ...(algorithm === undefined ? {} : { algorithm }),
+                constraints: [{ ...avoid, ...constraint }],
+            });
+        await expect(refused({ edge: 4 })).rejects.toMatchObject({ code: "invalidPath" });
+        await expect(refused({ edge: 12 })).rejects.toMatchObject({ code: "invalidPath" });
+        await expect(refused({ path: [[1, 2, 3, 4]] })).rejects.toMatchObject({
+            code: "invalidPath",
+        });
+        await expect(refused({ path: [avoid.path[0]!, avoid.path.at(-1)!] })).rejects.toMatchObject(
+            {
+                code: "invalidPath",
+            },
+        );
+        await expect(refused({ rule: "perhaps" })).rejects.toMatchObject({ code: "invalidOption" });
+        await expect(refused({}, "greedy")).rejects.toMatchObject({ code: "invalidOption" });
+        await session.dispose();
+    });
+
     test.each(["greedy", "praun", "kraevoy", "schreiner"] as const)(
         "by_%s_is_complete_and_has_the_bound_of_the_root_state",
         async (algorithm) => {

@@ -129,6 +129,17 @@ T& HandleTable<T>::get(std::uint32_t handle)
 /// The paths to draw that were made last: see paths.cc.
 Polylines& drawn_paths();
 
+/// Lists from one after the other; offsets have one more entry than there are lists.
+template <typename T>
+std::vector<std::vector<T>> unflattened(const T* flat, const Index* offsets, std::size_t count)
+{
+    std::vector<std::vector<T>> lists(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        lists[i].assign(flat + offsets[i], flat + offsets[i + 1]);
+    }
+    return lists;
+}
+
 /// Makes `error` the last one.
 void set_error(Error error);
 

@@ -5,16 +5,6 @@ namespace layout_embedding::boundary {
 
 namespace {
 
-template <typename T>
-std::vector<std::vector<T>> unflattened(const T* flat, const Index* offsets, std::size_t count)
-{
-    std::vector<std::vector<T>> lists(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        lists[i].assign(flat + offsets[i], flat + offsets[i + 1]);
-    }
-    return lists;
-}
-
 CheckObject& check_object(std::uint32_t handle)
 {
     return handles<CheckObject>().get(handle);

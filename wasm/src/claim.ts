@@ -4,8 +4,7 @@ import type { Core, Handle } from "./core.js";
 import { javaScriptError } from "./errors.js";
 import { idArray } from "./mesh.js";
 import type { EmbeddingClaim, Violation } from "./types.js";
-
-const none = 0xffff_ffff;
+import { flattened, flattenedWeakPaths } from "./weak_paths.js";
 
 /** The claim inside the core; the caller destroys it. */
 export function claimInCore(core: Core, claim: EmbeddingClaim): Handle {
@@ -124,28 +123,13 @@ function claimArrays(claim: EmbeddingClaim) {
             edges.map((edge) => ids(edge.chain, "chain vertex")),
             1,
         ),
-        weakPaths: flattened(
-            edges.map((edge) => Uint32Array.from(edge.weakPath.flatMap(paddedPoint))),
-            3,
+        weakPaths: flattenedWeakPaths(
+            edges.map((edge) => edge.weakPath),
+            (edge) =>
+                javaScriptError(
+                    "invalidInput",
+                    `the weak path of edge ${String(edge)} has a point without 1, 2 or 3 target vertices`,
+                ),
         ),
     };
-}
-
-function paddedPoint(point: number[]): number[] {
-    if (point.length < 1 || point.length > 3) {
-        throw javaScriptError("invalidInput", "a weak point has not 1, 2 or 3 target vertices");
-    }
-    return [point[0] ?? none, point[1] ?? none, point[2] ?? none];
-}
-
-function flattened(lists: Uint32Array[], itemSize: number) {
-    const offsets = Uint32Array.from({ length: lists.length + 1 });
-    lists.forEach((list, i) => {
-        offsets[i + 1] = (offsets[i] ?? 0) + list.length / itemSize;
-    });
-    const items = new Uint32Array((offsets[lists.length] ?? 0) * itemSize);
-    lists.forEach((list, i) => {
-        items.set(list, (offsets[i] ?? 0) * itemSize);
-    });
-    return { items, offsets };
 }

@@ -6,6 +6,7 @@ import type {
     EmbedResult,
     ExportedFiles,
     LandmarkDoubt,
+    PathConstraint,
     RefinedMesh,
     WeakPoint,
 } from "./types.js";
@@ -44,6 +45,8 @@ export interface EmbeddingDocument {
         workLimit: number | null;
         memoryLimit: number | null;
     };
+    /** What was asked of single paths. */
+    constraints: PathConstraint[];
     inputs: InputRecord[];
     /** What was repaired or deserves attention. */
     notes: string[];
@@ -130,6 +133,7 @@ export function embeddingDocument(exportable: Exportable): EmbeddingDocument {
             workLimit: finite(options.workLimit),
             memoryLimit: finite(options.memoryLimit),
         },
+        constraints: [...options.constraints],
         inputs: exportable.inputs,
         notes: exportable.notes,
         doubts: result.doubts,

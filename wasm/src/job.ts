@@ -13,6 +13,7 @@ import type {
     EmbedResult,
     EmbedStatus,
     LandmarkDoubt,
+    PathConstraint,
     PathShape,
     Polylines,
     RefinedMesh,
@@ -20,6 +21,7 @@ import type {
     SolveOptions,
     WeakPoint,
 } from "./types.js";
+import { flattenedWeakPaths } from "./weak_paths.js";
 
 // In the order of the core's enumerations (core/apps/embed_job.hh).
 const algorithms: Algorithm[] = [
@@ -67,6 +69,7 @@ export interface JobOptions {
     workLimit: number;
     memoryLimit: number;
     seed: number;
+    constraints: readonly PathConstraint[];
 }
 
 /** Checks options; throws invalidOption. */
@@ -79,6 +82,7 @@ export function jobOptions(options: SolveOptions): JobOptions {
         workLimit: options.workLimit ?? Infinity,
         memoryLimit: options.memoryLimit ?? Infinity,
         seed: options.seed ?? 1,
+        constraints: options.constraints ?? [],
     };
     const refuse = (name: string, value: unknown, wanted: string) =>
         new LayoutError(
@@ -102,6 +106,17 @@ export function jobOptions(options: SolveOptions): JobOptions {
     if (!Number.isSafeInteger(checked.seed) || checked.seed < 0) {
         throw refuse("seed", checked.seed, "an integer from 0 to 2^53 - 1");
     }
+    for (const { rule, edge } of checked.constraints) {
+        if ((rule as unknown) !== "keep" && (rule as unknown) !== "avoid") {
+            throw refuse("constraints", rule, "a list of rules that are keep or avoid");
+        }
+        if (!Number.isSafeInteger(edge) || edge < 0 || edge >= none) {
+            throw refuse("constraints", edge, "a list of rules for edges by their ids");
+        }
+    }
+    if (checked.constraints.length > 0 && checked.algorithm !== "exact") {
+        throw refuse("algorithm", checked.algorithm, "exact where paths are to be kept or avoided");
+    }
     return checked;
 }
 
@@ -113,6 +128,17 @@ export function createJob(
     landmarks: Uint32Array,
     options: JobOptions,
 ): Handle {
+    const { constraints } = options;
+    const paths = flattenedWeakPaths(
+        constraints.map(({ path }) => path),
+        (place) =>
+            new LayoutError(
+                "invalidPath",
+                `the path given for layout edge ${String(constraints[place]?.edge)} has a point ` +
+                    "without 1, 2 or 3 target vertices; take the weak path of an earlier embedding.",
+                { edge: constraints[place]?.edge ?? 0 },
+            ),
+    );
     return core.withCopies((copy) =>
         core.call(
             "boundary_job_create",
@@ -127,6 +153,11 @@ export function createJob(
             workAmount(options.workLimit),
             options.memoryLimit,
             shapes.indexOf(options.shape),
+            copy(Uint32Array.from(constraints, ({ edge }) => edge)),
+            copy(Uint32Array.from(constraints, ({ rule }) => (rule === "keep" ? 1 : 0))),
+            copy(paths.items),
+            copy(paths.offsets),
+            constraints.length,
         ),
     );
 }

@@ -177,6 +177,21 @@ export type BoundScope = "embeddings" | "insertionSequences";
 
 export type EmbedPhase = "prepare" | "search" | "realise" | "check" | "done";
 
+/**
+ * What is asked of the path of one layout edge, on the target punctured at its landmarks and holes:
+ * that it be homotopic to a path (`keep`), or not (`avoid`).
+ */
+export interface PathConstraint {
+    rule: "keep" | "avoid";
+    /** The layout edge, as in LayoutInfo.edges. */
+    edge: number;
+    /**
+     * As in EmbeddedEdge: as a rule of an earlier embedding with the same target and landmarks. Only
+     * its homotopy class counts, not its length.
+     */
+    path: readonly WeakPoint[];
+}
+
 export interface SolveOptions {
     /** Default: exact. */
     algorithm?: Algorithm;
@@ -188,7 +203,7 @@ export interface SolveOptions {
     timeLimit?: number;
     /**
      * Units of work for the search, each about the expansion of a node; reproducible. Default: none
-     * for the heuristics; the others stop 15 million units after their first embedding, a few
+     * for the heuristics; the others stop 20 million units after their first embedding, a few
      * seconds. Infinity counts as not given.
      */
     workLimit?: number;
@@ -196,6 +211,12 @@ export interface SolveOptions {
     memoryLimit?: number;
     /** A non-negative integer; the same seed gives the same result on every machine. Default 1. */
     seed?: number;
+    /**
+     * What is asked of single paths, for the exact method alone: costs and bounds are those of the
+     * embeddings that comply, and all other paths follow. Another route for an edge is
+     * `{ rule: "avoid", edge: e.id, path: e.weakPath }`, where e is one of the edges of a result.
+     */
+    constraints?: readonly PathConstraint[];
     /**
      * Ends the search; the best embedding so far is still finished and returned, with the status
      * `cancelled`. The promise is not rejected.

@@ -19,6 +19,8 @@ export interface EmbedCommand {
     target: string;
     landmarks: string | null;
     repair: boolean;
+    /** Which layout edges are to keep their routes, or to take others, than in an earlier output. */
+    previous: { folder: string; keep: number[]; avoid: number[] } | null;
     output: string | null;
     /** Whether to write a quad mesh, too, and which. */
     quads: QuadOptions | null;
@@ -121,6 +123,9 @@ type SolveValues = ReturnType<typeof parseArgs<{ options: typeof solveOptions }>
 const embedOptions = {
     ...commonOptions,
     ...solveOptions,
+    previous: { type: "string" },
+    keep: { type: "string", multiple: true },
+    avoid: { type: "string", multiple: true },
     output: { type: "string" },
     format: { type: "string", multiple: true },
     view: { type: "string" },
@@ -268,6 +273,7 @@ function embedCommand(
         target,
         landmarks: values.landmarks ?? null,
         repair: values.repair === true,
+        previous: previous(values),
         output: values.output ?? null,
         quads,
         formats,
@@ -340,6 +346,28 @@ function parseBatch(args: string[]): Command {
         quads: given("edgeLength", number("--edge-length", values["edge-length"])),
         map: mapValues(values),
     };
+}
+
+function previous({ previous: folder, keep = [], avoid = [] }: EmbedValues) {
+    if (folder === undefined) {
+        if (keep.length + avoid.length > 0) {
+            throw javaScriptError("usage", "--keep and --avoid need --previous DIR");
+        }
+        return null;
+    }
+    return { folder, keep: edgeList("--keep", keep), avoid: edgeList("--avoid", avoid) };
+}
+
+/** Layout edges, separated by commas. */
+function edgeList(option: string, lists: string[]): number[] {
+    return lists
+        .flatMap((list) => list.split(","))
+        .map((text) => {
+            if (!/^\d+$/.test(text)) {
+                throw new LayoutError("invalidOption", `${option} has "${text}"; give edge ids.`);
+            }
+            return Number(text);
+        });
 }
 
 function parseCheck(args: string[]): Command {

@@ -2,12 +2,13 @@
 import { LayoutError } from "../errors.js";
 import { jsonBytes, type EmbeddingDocument } from "../files.js";
 import { Session } from "../session.js";
-import type { EmbedResult, QuadMesh, QualityReport } from "../types.js";
+import type { EmbedResult, PathConstraint, QuadMesh, QualityReport } from "../types.js";
 import type { EmbedCommand } from "./arguments.js";
 import { readInput, readReference } from "./input_files.js";
 import { exitCodes, type Outcome } from "./outcome.js";
 import { OutputFolder } from "./output_folder.js";
 import { ProgressLine } from "./progress.js";
+import { readDocument, type CheckedDocument } from "./read_embedding.js";
 
 export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
     // The first interruption ends the search, a second one the program.
@@ -20,8 +21,10 @@ export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
     const output = command.output === null ? null : await OutputFolder.prepare(command.output);
     const session = await Session.create();
     try {
-        await load(session, command);
-        const result = await solve(session, command, interrupt.signal);
+        const previous = command.previous && (await readDocument(command.previous.folder));
+        await load(session, command, previous);
+        const constraints = constraintsOf(command, previous);
+        const result = await solve(session, command, constraints, interrupt.signal);
         return await finish(session, command, output, result, interrupt.signal.aborted);
     } finally {
         await session.dispose();
@@ -31,7 +34,11 @@ export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
     }
 }
 
-async function load(session: Session, command: EmbedCommand): Promise<void> {
+async function load(
+    session: Session,
+    command: EmbedCommand,
+    previous: CheckedDocument | null,
+): Promise<void> {
     const reference = command.target === "" ? await readReference(command.layout) : null;
     const layout = await readInput("the layout", reference?.layout ?? command.layout);
     const target = await readInput("the target", reference?.target ?? command.target);
@@ -40,6 +47,11 @@ async function load(session: Session, command: EmbedCommand): Promise<void> {
     const options = { repair: command.repair };
     const loaded = await session.loadLayout(layout, options);
     const notes = [...loaded.notes, ...(await session.loadTarget(target, options)).notes];
+    if (file === null && previous !== null) {
+        await session.setLandmarks(previous.landmarks, { numbering: "loaded" });
+        printNotes(command, notes);
+        return;
+    }
     const landmarks =
         file ?? reference?.landmarks(loaded.vertexMap?.length ?? loaded.vertexCount) ?? null;
     notes.push(
@@ -59,15 +71,34 @@ function printNotes(command: EmbedCommand, notes: string[]): void {
     }
 }
 
+/** Throws where an edge is none of the earlier output. */
+function constraintsOf(command: EmbedCommand, previous: CheckedDocument | null): PathConstraint[] {
+    const { keep = [], avoid = [] } = command.previous ?? {};
+    const along = (rule: PathConstraint["rule"]) => (edge: number) => {
+        const path = previous?.edges.find(({ id }) => id === edge)?.weakPath;
+        if (path === undefined) {
+            throw new LayoutError(
+                "invalidOption",
+                `--${rule} has ${String(edge)}, which is no edge of the earlier output; give one of ` +
+                    `its ${String(previous?.edges.length ?? 0)} edges.`,
+            );
+        }
+        return { rule, edge, path };
+    };
+    return [...keep.map(along("keep")), ...avoid.map(along("avoid"))];
+}
+
 async function solve(
     session: Session,
     command: EmbedCommand,
+    constraints: PathConstraint[],
     signal: AbortSignal,
 ): Promise<EmbedResult> {
     const line = new ProgressLine(process.stderr.isTTY && !command.quiet);
     try {
         return await session.solve({
             ...command.solve,
+            constraints,
             signal,
             onProgress: (progress) => {
                 line.show(progress);

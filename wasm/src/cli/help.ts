@@ -45,6 +45,10 @@ Options of embed
   --shape NAME         short (default): paths as straight as their neighbours allow; even: crossing
                        the target's edges at even distances; fair: short, then traced anew where
                        that makes thin patches rounder
+  --previous DIR       an earlier output for the same layout, target and landmarks (which need not
+                       be given again), for the two options that follow
+  --avoid LIST         other routes for these edges, separated by commas; all others follow
+  --keep LIST          these edges keep their routes, as homotopy classes
   --report             report on lengths, roundness and distortion of every path and patch:
                        report.json, and in the object of --json
   --quiet              print nothing but errors

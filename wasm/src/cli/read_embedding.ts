@@ -27,8 +27,13 @@ export interface WrittenEmbedding {
     lines: number[][];
 }
 
+/** embedding.json alone. */
+export async function readDocument(folder: string) {
+    return embedding(await readJson(folder, "embedding.json"));
+}
+
 export async function readEmbedding(folder: string): Promise<WrittenEmbedding> {
-    const document = embedding(await readJson(folder, "embedding.json"));
+    const document = await readDocument(folder);
     const map = refinedMap(await readJson(folder, "refined_map.json"));
     const obj = await readOutput(folder, "refined.obj");
     const { positions, corners, offsets } = await readObj(obj);

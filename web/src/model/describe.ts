@@ -132,6 +132,7 @@ const titles: Partial<Record<string, string>> = {
     templateNotReached: "No layout could be made",
     memoryLimit: "There is too little memory",
     unresolvedTie: "Paths are exactly equally long",
+    invalidPath: "A route to keep or avoid does not fit",
     realisationFailed: "The embedding could not be cut into the mesh",
     crashed: "The solver crashed",
     workerFailed: "The solver could not be started",
