@@ -10,6 +10,10 @@ namespace {
 constexpr std::uint64_t kFirstExplorationShare = 4;
 constexpr std::uint64_t kMaxFirstExploration = 60'000;
 constexpr unsigned kMaxExplorations = 4;
+// How far the first exploration of an edge goes beyond its shortest path: what the incumbent costs
+// more than the root bound, divided among the open edges, so many times; as power of two. Each
+// further one goes twice as far.
+constexpr unsigned kFirstShares = 1;
 // Expansions after which an enumeration beside other walks is over as soon as it has raised its
 // bound, and how many more it gets at a time if it has not.
 constexpr std::uint64_t kEnumeration = 20'000;
@@ -269,21 +273,25 @@ Solver::Outcome ExactSolver::explore()
 {
     const std::uint64_t first = std::min<std::uint64_t>(
         kMaxFirstExploration, 1 + graph_.node_count() / kFirstExplorationShare);
+    const Length slack = space_.incumbent.cost() - start_.root_bound();
     for (; next_open_ < open_.size(); ++next_open_) {
         const Index edge = open_[next_open_].edge;
         Exploration& exploration = explorations_[edge];
-        const Length limit = space_.incumbent.exists()
-                                 ? base(edge) + (space_.incumbent.cost() - start_.root_bound())
-                                 : kInfiniteLength;
-        if (exploration.expansions < first << (kMaxExplorations - 1) &&
-            exploration.frontier < limit) {
-            exploration.expansions = std::max(first, 2 * exploration.expansions);
-            is_exploration_ = true;
-            has_explored_ = true;
-            space_.embedding.go_to({});
-            return begin_enumeration(edge, limit, exploration.expansions) ? Outcome::finished
-                                                                          : Outcome::tied;
+        if (exploration.rounds == kMaxExplorations ||
+            (space_.incumbent.exists() && exploration.frontier >= base(edge) + slack)) {
+            continue;
         }
+        Length limit = kInfiniteLength;
+        if (space_.incumbent.exists()) {
+            const Length share = slack / open_.size() + 1;
+            limit = base(edge) + std::min(slack, share << (kFirstShares + exploration.rounds));
+            limit = limit > exploration.frontier ? limit : base(edge) + slack;
+        }
+        is_exploration_ = true;
+        has_explored_ = true;
+        space_.embedding.go_to({});
+        return begin_enumeration(edge, limit, first << exploration.rounds++) ? Outcome::finished
+                                                                             : Outcome::tied;
     }
     next_open_ = 0;
     stage_ = has_explored_ ? Stage::select : Stage::examine;

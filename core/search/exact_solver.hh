@@ -56,7 +56,7 @@ private:
     };
     /// How far the classes of an edge have been enumerated whatever the other edges do.
     struct Exploration {
-        std::uint64_t expansions = 0;
+        unsigned rounds = 0;  // of them so far
         Length frontier = 0;
     };
     /// An edge without a known class in the selection that is being looked into.
