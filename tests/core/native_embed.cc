@@ -1,6 +1,6 @@
 // One embedding, natively, for comparison with the package (tests/node/native.test.ts):
 //
-//   native_embed LAYOUT TARGET LANDMARKS SEED WORK_PER_STEP
+//   native_embed LAYOUT TARGET LANDMARKS SEED WORK_LIMIT WORK_PER_STEP
 //
 // Prints the exact results as one line of JSON, then the refined mesh as OBJ, byte for byte what
 // the package has to make of the same input.
@@ -50,8 +50,9 @@ int run(char** arguments)
     }
     EmbedOptions options;
     options.seed = std::strtoull(arguments[4], nullptr, 10);
+    options.work_limit = std::strtoull(arguments[5], nullptr, 10);
     StepBudget budget;
-    budget.work = std::strtoull(arguments[5], nullptr, 10);
+    budget.work = std::strtoull(arguments[6], nullptr, 10);
     EmbedJob job(std::move(*problem), options);
     while (job.step(budget)) {
     }
@@ -78,8 +79,10 @@ int run(char** arguments)
 
 int main(int count, char** arguments)
 {
-    if (count != 6) {
-        std::fprintf(stderr, "usage: native_embed LAYOUT TARGET LANDMARKS SEED WORK_PER_STEP\n");
+    if (count != 7) {
+        std::fprintf(stderr,
+                     "usage: native_embed LAYOUT TARGET LANDMARKS SEED WORK_LIMIT "
+                     "WORK_PER_STEP\n");
         return 2;
     }
     return layout_embedding::run(arguments);

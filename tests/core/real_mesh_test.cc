@@ -76,7 +76,7 @@ EmbedResult embed(const std::shared_ptr<const Layout>& layout,
         return {};
     }
     EmbedOptions options;
-    options.work_limit = 1'500'000;  // enough for a good embedding
+    options.work_limit = 800'000;  // enough for a good embedding
     EmbedJob job(std::move(*problem), options);
     while (job.step()) {
     }

@@ -41,9 +41,12 @@ describe("embed", () => {
             const first = await run(["embed", ...inputs, "--output", "a", "--json"], { cwd });
             const before = JSON.parse(first.stdout) as EmbeddingDocument;
             const again = ["embed", "layout.obj", "target.obj", "--previous", "a", "--output", "b"];
-            const second = await run([...again, "--avoid", "5", "--keep", "0,1", "--json"], {
-                cwd,
-            });
+            const second = await run(
+                [...again, "--avoid", "5", "--keep", "0,1", "--work-limit", "300000", "--json"],
+                {
+                    cwd,
+                },
+            );
             expect(second).toMatchObject({ exitCode: 0, stderr: "" });
             const after = JSON.parse(second.stdout) as EmbeddingDocument;
             expect(after.landmarks).toEqual(before.landmarks);

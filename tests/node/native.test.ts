@@ -20,8 +20,12 @@ interface Files {
     landmarks: string;
 }
 
+/** Some instances are proved by then, others end at the limit. */
+const workLimit = 3_000_000;
+
 async function expectAgreement({ layout, target, landmarks }: Files, seed: number): Promise<void> {
-    const native = await runProgram(program, [layout, target, landmarks, String(seed), "1000"]);
+    const numbers = [seed, workLimit, 1000].map(String);
+    const native = await runProgram(program, [layout, target, landmarks, ...numbers]);
     expect(native.stderr).toBe("");
     expect(native.exitCode).toBe(0);
     const lineEnd = native.stdout.indexOf("\n");
@@ -31,7 +35,7 @@ async function expectAgreement({ layout, target, landmarks }: Files, seed: numbe
     await session.loadLayout(file(layout));
     await session.loadTarget(file(target));
     await session.setLandmarks(file(landmarks));
-    const result = await session.solve({ seed });
+    const result = await session.solve({ seed, workLimit });
     const files = await session.exportFiles();
     await session.dispose();
     expect({
