@@ -76,7 +76,7 @@ struct EmbedOptions {
 };
 
 /// A few seconds on the machines of today.
-inline constexpr std::uint64_t kDefaultPatience = 20'000'000;
+inline constexpr std::uint64_t kDefaultPatience = 15'000'000;
 
 enum class EventKind : std::uint32_t {
     /// Another phase began.

@@ -203,7 +203,7 @@ export interface SolveOptions {
     timeLimit?: number;
     /**
      * Units of work for the search, each about the expansion of a node; reproducible. Default: none
-     * for the heuristics; the others stop 20 million units after their first embedding, a few
+     * for the heuristics; the others stop 15 million units after their first embedding, a few
      * seconds. Infinity counts as not given.
      */
     workLimit?: number;
