@@ -284,7 +284,8 @@ Solver::Outcome ExactSolver::explore()
         Length limit = kInfiniteLength;
         if (space_.incumbent.exists()) {
             const Length share = slack / open_.size() + 1;
-            limit = base(edge) + std::min(slack, share << (kFirstShares + exploration.rounds));
+            const unsigned doublings = kFirstShares + exploration.rounds;
+            limit = base(edge) + (share < (slack >> doublings) ? share << doublings : slack);
             limit = limit > exploration.frontier ? limit : base(edge) + slack;
         }
         is_exploration_ = true;

@@ -14,14 +14,14 @@ struct SequenceSolverOptions {
     BranchAndBoundOptions branch_and_bound;
     /// Start with the embedding of plain greedy insertion (paper, Sec. 4.2).
     bool greedy_start = true;
-    /// Improve the start by local search on insertion orders.
+    /// Improve the start by insertion that looks ahead and local search on insertion orders.
     bool local_search = true;
     /// Answer questions for shortest paths from memory where that is possible.
     bool remember = true;
 };
 
-/// The best of all insertion sequences: plain greedy, local search, branch and bound (paper, Sec.
-/// 4; design, Sec. 2).
+/// The best of all insertion sequences: the start as in StartingSearch, then branch and bound
+/// (paper, Sec. 4; design, Sec. 2).
 class SequenceSolver : public Solver {
 public:
     /// Keeps references to problem and graph.

@@ -38,7 +38,8 @@ constexpr const char* kUsage =
     "    embeds the template layout of every member in the next N members of its class (all), by\n"
     "    the exact method and by the heuristics; with --doubts, also the template's mirror image\n"
     "    and with two landmarks exchanged, and counts what is said of these. 2000 vertices each\n"
-    "    unless told otherwise. Takes an hour for everything\n"
+    "    unless told otherwise. Takes about 20 minutes for\n"
+    "    everything, without --doubts\n"
     "generate_shapes --check --maps [--class NAME] [--member N] [--others N] [--vertices N]\n"
     "    embeds the quad template of member N (0) of each class in it and in others, makes quad\n"
     "    meshes of the same connectivity, and maps it onto the others\n";

@@ -142,11 +142,10 @@ const quadOptions = {
     relaxation: { type: "string" },
 } as const satisfies ParseArgsConfig["options"];
 
-const mapOptions = {
+/** What map and batch have in common. */
+const mappingOptions = {
     ...solveOptions,
     help: { type: "boolean" },
-    "landmarks-a": { type: "string" },
-    "landmarks-b": { type: "string" },
     output: { type: "string" },
     rounds: { type: "string" },
     "seam-passes": { type: "string" },
@@ -155,17 +154,16 @@ const mapOptions = {
     json: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
 
+const mapOptions = {
+    ...mappingOptions,
+    "landmarks-a": { type: "string" },
+    "landmarks-b": { type: "string" },
+} as const satisfies ParseArgsConfig["options"];
+
 const batchOptions = {
-    ...solveOptions,
-    help: { type: "boolean" },
-    output: { type: "string" },
+    ...mappingOptions,
     reference: { type: "string" },
     "edge-length": { type: "string" },
-    rounds: { type: "string" },
-    "seam-passes": { type: "string" },
-    repair: { type: "boolean" },
-    quiet: { type: "boolean" },
-    json: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
 
 const convertOptions = {
