@@ -39,6 +39,14 @@ const colors = ["color-contrast", "link-in-text-block"];
 test("axe_finds_nothing_to_object_to_in_light_and_dark", async () => {
     const { page } = opened();
     await openAllDetails(page);
+    // With an edge chosen, and a rule for its route.
+    await page.getByRole("button", { name: "Show edge 0", exact: true }).click();
+    await page.click("#route-keep");
+    expect(await page.isVisible("#routes")).toBe(true);
+    expect(await violations(page)).toEqual([]);
+    await page.emulateMedia({ colorScheme: "dark" });
+    expect(await violations(page, { rules: colors })).toEqual([]);
+    await page.emulateMedia({ colorScheme: "light" });
     // With a problem and its place.
     const repeated = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n";
     await page.setInputFiles("#target-file", textFile("repeated.obj", repeated));

@@ -18,6 +18,7 @@ import { openLink } from "./panels/link.js";
 import { plotPanel } from "./panels/plot.js";
 import { problemsPanel } from "./panels/problems.js";
 import { resultPanel } from "./panels/result.js";
+import { anotherRoute, keepRoute, routesPanel } from "./panels/routes.js";
 import { shortcuts } from "./panels/shortcuts.js";
 import { solvePanel, toggleSolve } from "./panels/solve.js";
 import { stage } from "./panels/stage.js";
@@ -39,6 +40,7 @@ galleryPanel(store, actions);
 inputPanel(store, actions, openFiles);
 landmarksPanel(store, actions);
 solvePanel(store, actions);
+routesPanel(store, actions);
 doubtsPanel(store, actions);
 plotPanel(store, actions);
 resultPanel(store, actions);
@@ -78,6 +80,12 @@ shortcuts([
     },
     { key: "Shift+arrows", does: "Move the chosen landmark to a neighbouring vertex" },
     { key: "Delete", does: "Take the chosen landmark off the target", act: () => views?.remove() },
+    {
+        key: "x",
+        does: "Another route for the chosen edge",
+        act: () => anotherRoute(store, actions),
+    },
+    { key: "k", does: "The chosen edge keeps its route", act: () => keepRoute(store, actions) },
     { key: "Escape", does: "Stop placing, choose nothing", act: () => views?.stop() },
     { key: "Ctrl+Z", does: "Undo", act: () => actions.landmarks.undo() },
     { key: "Ctrl+Shift+Z", does: "Redo", act: () => actions.landmarks.redo() },

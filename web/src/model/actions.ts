@@ -33,6 +33,8 @@ import {
 import { landmarksOf, lineOf, meshPlace } from "./places.js";
 import type { Store } from "./store.js";
 import type { Activity, AppState, Display, Item, Origin, Problem } from "./state.js";
+import { RouteEditor } from "./route_editor.js";
+import { droppedWords, fits, type RouteRule } from "./routes.js";
 import { TraceRecorder } from "./trace.js";
 
 /** The same file or arrays can be read again: file contents are fetched each time. */
@@ -49,6 +51,7 @@ export interface SavedWork {
     readonly repair: boolean;
     readonly options: AppState["options"];
     readonly origin: Origin | null;
+    readonly routes: readonly RouteRule[];
     /** Whether there was an embedding: then it is looked for again. */
     readonly solved: boolean;
 }
@@ -83,6 +86,7 @@ async function inputOf(source: Source): Promise<MeshInput> {
  */
 export class Actions {
     readonly landmarks: LandmarkEditor;
+    readonly routes: RouteEditor;
     private readonly batch: Batch;
     private readonly sources: Partial<Record<Role, Source>> = {};
     private queue: Promise<void> = Promise.resolve();
@@ -100,6 +104,9 @@ export class Actions {
             dragged: (id) => void this.preview(id),
             edited: (wasSolved) => this.afterEdit(wasSolved),
         });
+        this.routes = new RouteEditor(store, this.landmarks, () =>
+            store.get().live ? this.queue : this.solve(),
+        );
         this.batch = new Batch(engine, (entries, running) => {
             const { batch } = store.get();
             if (batch) store.update({ batch: { ...batch, entries, running } });
@@ -176,10 +183,16 @@ export class Actions {
                 options: saved.options,
                 quads: saved.quads,
                 making: saved.making,
+                routes: [],
             });
             if (saved.target && !(await this.load("target", saved.target))) return;
             if (saved.layout && !(await this.load("layout", saved.layout))) return;
             if (saved.landmarks) this.store.update({ landmarks: saved.landmarks });
+            const { layout, landmarks } = this.store.get();
+            if (layout && landmarks)
+                this.store.update({
+                    routes: saved.routes.filter((rule) => fits(rule, layout, landmarks)),
+                });
             if (saved.making) await this.rebuildLayout();
             else if (saved.solved) await this.runSolve();
         });
@@ -187,10 +200,22 @@ export class Actions {
 
     /** What restore() needs to bring everything back. */
     saved(): SavedWork {
-        const { landmarks, making, quads, repair, options, origin, result } = this.store.get();
+        const { landmarks, making, quads, repair, options, origin, routes, result } =
+            this.store.get();
         const { layout = null, target = null } = this.sources;
         const solved = result !== null;
-        return { layout, target, landmarks, making, quads, repair, options, origin, solved };
+        return {
+            layout,
+            target,
+            landmarks,
+            making,
+            quads,
+            repair,
+            options,
+            origin,
+            routes,
+            solved,
+        };
     }
 
     /** Another target for the layout there is, solved. */
@@ -267,6 +292,7 @@ export class Actions {
                 makingHint: null,
                 notices: [],
             });
+            this.endRoutes("the layout is made anew");
             return Promise.resolve();
         });
     }
@@ -534,7 +560,15 @@ export class Actions {
             shownPlace: null,
             landmarks: layout && target ? missingLandmarks(layout.vertexCount, names) : null,
         });
+        this.endRoutes(`there is another ${role}`);
         return true;
+    }
+
+    private endRoutes(why: string): void {
+        const { routes } = this.store.get();
+        if (routes.length === 0) return;
+        this.store.update({ routes: [] });
+        this.notice(droppedWords(routes, why));
     }
 
     private repairRemedy(role: Role, source: Source, error: unknown): Problem["remedy"] {
@@ -728,7 +762,7 @@ export class Actions {
     }
 
     private async runSolve(): Promise<void> {
-        const { layout, target, landmarks, options } = this.store.get();
+        const { layout, target, landmarks, options, routes } = this.store.get();
         const ids = landmarks && completeIds(landmarks);
         if (!layout || !target || !ids) return;
         const abort = new AbortController();
@@ -758,9 +792,10 @@ export class Actions {
                 gap,
                 seed,
                 shape,
-                ...(algorithm !== null && { algorithm }),
+                ...(algorithm !== null && routes.length === 0 && { algorithm }),
                 ...(timeLimit !== null && { timeLimit }),
                 ...(workLimit !== null && { workLimit }),
+                constraints: routes.map(({ rule, edge, path }) => ({ rule, edge, path })),
                 signal: abort.signal,
                 onProgress: (progress) => {
                     recorder.add(progress);

@@ -59,12 +59,12 @@ export const statusWords: Record<EmbedStatus, string> = {
     noneFound: "No embedding was found",
 };
 
-/** What the figures of a result mean, in plain words. */
-export function meaning(result: EmbedResult): string {
+/** What the figures of a result mean, in plain words; `ruled`: with rules for single routes. */
+export function meaning(result: EmbedResult, ruled: boolean): string {
     const bound = formatLength(result.lowerBound);
     const scope =
         result.boundScope === "embeddings"
-            ? "no embedding of this layout with these landmarks"
+            ? `no embedding of this layout with these landmarks${ruled ? " and rules for routes" : ""}`
             : "no embedding made by inserting one path after another";
     const claim =
         `Measured along the edges of the target, each triangle cut in six, ${scope} ` +

@@ -10,6 +10,7 @@ import {
     withPlace,
     type Landmarks,
 } from "./landmarks.js";
+import { droppedWords, fits, type RouteRule } from "./routes.js";
 import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
 
@@ -36,6 +37,7 @@ export interface EditListener {
 interface Edited {
     readonly landmarks: Landmarks;
     readonly flipped: boolean;
+    readonly routes: readonly RouteRule[];
 }
 
 /** Every way to edit landmarks by hand; each edit can be taken back. */
@@ -139,6 +141,7 @@ export class LandmarkEditor {
         this.beforeDrag = null;
         if (!before || before === this.store.get().landmarks) return;
         this.history.record({ ...this.current(), landmarks: before });
+        this.adaptRoutes();
         this.changed(this.solvedBeforeDrag);
     }
 
@@ -185,6 +188,7 @@ export class LandmarkEditor {
             flipped: !this.store.get().flipped,
             announcement: "The layout was turned inside out.",
         });
+        this.dropRoutes(() => false, "the layout was turned");
         this.changed(wasSolved);
     }
 
@@ -204,6 +208,22 @@ export class LandmarkEditor {
         this.store.update({ selected: null, placing: 0 });
     }
 
+    /** Other rules for routes: what was solved is shown until it is solved again. */
+    setRoutes(routes: readonly RouteRule[], announcement: string): void {
+        const { result } = this.store.get();
+        const wasSolved = this.isSolved();
+        this.history.record(this.current());
+        this.store.update({ ...unsolved, routes, preview: result, announcement });
+        this.changed(wasSolved);
+    }
+
+    /** Rules that the embedding there is complies with. */
+    keepRoutes(routes: readonly RouteRule[], announcement: string): void {
+        this.history.record(this.current());
+        this.store.update({ routes, announcement });
+        this.tellHistory();
+    }
+
     undo(): void {
         this.go(this.history.back(this.current()), "Taken back.");
     }
@@ -220,21 +240,22 @@ export class LandmarkEditor {
     }
 
     private current(): Edited {
-        const { landmarks, flipped } = this.store.get();
-        return { landmarks: landmarks ?? noLandmarks, flipped };
+        const { landmarks, flipped, routes } = this.store.get();
+        return { landmarks: landmarks ?? noLandmarks, flipped, routes };
     }
 
     private go(edited: Edited | null, announcement: string): void {
         if (!edited) return;
-        const { landmarks, flipped } = edited;
-        const { making, placing } = this.store.get();
+        const { landmarks, flipped, routes } = edited;
+        const { making, placing, selected } = this.store.get();
         const goOn = making || placing !== null;
         const wasSolved = this.isSolved();
         this.store.update({
             ...unsolved,
             landmarks,
             flipped,
-            selected: null,
+            routes,
+            selected: selected?.kind === "edge" ? selected : null,
             placing: making
                 ? landmarks.places.length
                 : goOn
@@ -248,7 +269,30 @@ export class LandmarkEditor {
     private apply(landmarks: Landmarks, wasSolved = this.isSolved()): void {
         if (this.store.get().landmarks) this.history.record(this.current());
         this.store.update({ ...unsolved, landmarks });
+        this.adaptRoutes();
         this.changed(wasSolved);
+    }
+
+    /** After a landmark was moved: rules that still fit stay, without the price they had. */
+    private adaptRoutes(): void {
+        const { landmarks, layout } = this.store.get();
+        this.dropRoutes(
+            (rule) => layout !== null && landmarks !== null && fits(rule, layout, landmarks),
+            "it does not lead from landmark to landmark any more",
+        );
+        const { routes } = this.store.get();
+        if (routes.some(({ costBefore }) => costBefore !== null))
+            this.store.update({ routes: routes.map((rule) => ({ ...rule, costBefore: null })) });
+    }
+
+    private dropRoutes(stays: (rule: RouteRule) => boolean, why: string): void {
+        const { routes, notices } = this.store.get();
+        const dropped = routes.filter((rule) => !stays(rule));
+        if (dropped.length === 0) return;
+        this.store.update({
+            routes: routes.filter(stays),
+            notices: [...notices, droppedWords(dropped, why)],
+        });
     }
 
     private isSolved(): boolean {

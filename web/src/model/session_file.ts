@@ -3,6 +3,7 @@ import { strFromU8, strToU8, unzipSync } from "fflate";
 import type { MeshArrays, MeshFile } from "layout-embedding";
 import type { SavedWork, Source } from "./actions.js";
 import type { Landmarks } from "./landmarks.js";
+import type { RouteRule } from "./routes.js";
 import { initialState } from "./state.js";
 
 const version = 1;
@@ -18,6 +19,8 @@ interface SessionDocument {
     readonly repair: boolean;
     readonly options: SavedWork["options"];
     readonly origin: SavedWork["origin"];
+    /** Left out in sessions of earlier versions of the page. */
+    readonly routes?: readonly RouteRule[];
     readonly solved: boolean;
 }
 
@@ -32,7 +35,7 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         files[file] = await bytesOf(source);
         return { name, file };
     };
-    const { landmarks, making, quads, repair, options, origin, solved } = work;
+    const { landmarks, making, quads, repair, options, origin, routes, solved } = work;
     const document: SessionDocument = {
         version,
         layout: await pack("layout", work.layout),
@@ -43,6 +46,7 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         repair,
         options,
         origin,
+        routes,
         solved,
     };
     return { [description]: strToU8(JSON.stringify(document, null, 1)), ...files };
@@ -82,6 +86,7 @@ export function unpackSession(name: string, bytes: Uint8Array): SavedWork {
         repair: document.repair === true,
         options: { ...initialState.options, ...document.options },
         origin: document.origin ?? null,
+        routes: checkedRoutes(document.routes, broken),
         solved: document.solved === true,
     };
 }
@@ -105,6 +110,28 @@ function checkedLandmarks(
     if (!valid) throw broken("its landmarks are damaged");
     return { places, names, source: String(source) };
 }
+
+function checkedRoutes(
+    routes: readonly RouteRule[] | undefined,
+    broken: (why: string) => Error,
+): readonly RouteRule[] {
+    if (routes === undefined) return [];
+    if (!isList(routes) || !routes.every(isRoute)) throw broken("its rules for routes are damaged");
+    return routes;
+}
+
+const isList = (value: unknown): boolean => Array.isArray(value);
+const isId = (value: unknown) => Number.isSafeInteger(value) && (value as number) >= 0;
+const isPoint = (point: readonly unknown[]) =>
+    isList(point) && point.length > 0 && point.length < 4 && point.every(isId);
+
+const isRoute = ({ rule, edge, path, edgeCost, costBefore }: Partial<RouteRule>): boolean =>
+    (rule === "keep" || rule === "avoid") &&
+    isId(edge) &&
+    isList(path) &&
+    (path ?? []).every(isPoint) &&
+    typeof edgeCost === "number" &&
+    (costBefore === null || typeof costBefore === "number");
 
 async function bytesOf(source: Source): Promise<Uint8Array> {
     if (source instanceof File) return new Uint8Array(await source.arrayBuffer());

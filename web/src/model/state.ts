@@ -12,6 +12,7 @@ import type {
     UncheckedMesh,
 } from "layout-embedding";
 import type { Landmarks } from "./landmarks.js";
+import type { RouteRule } from "./routes.js";
 import type { Trace } from "./trace.js";
 
 export interface SolveSettings {
@@ -161,6 +162,8 @@ export interface AppState {
     readonly landmarks: Landmarks | null;
     /** Whether the layout's faces are turned around, after an edit that can be taken back. */
     readonly flipped: boolean;
+    /** What is asked of single paths, in the order in which it was asked. */
+    readonly routes: readonly RouteRule[];
     /** Whether the layout is made from the landmarks on the target. */
     readonly making: boolean;
     /** Whether a layout that is made here gets quads where that is possible. */
@@ -215,6 +218,7 @@ export const initialState: AppState = {
     origin: null,
     landmarks: null,
     flipped: false,
+    routes: [],
     making: false,
     quads: true,
     makingHint: null,

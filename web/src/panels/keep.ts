@@ -60,7 +60,8 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
                 shelves.get<Meshes>(meshSlot),
             ]);
             if (!rest || !meshes?.target) return false;
-            await actions.restore({ ...rest, ...meshes });
+            // What an earlier version of the page put away has no rules for routes.
+            await actions.restore({ ...rest, ...meshes, routes: rest.routes ?? [] });
             actions.notice("This is what was open at your last visit. The gallery has examples.");
             return store.get().target !== null;
         },
@@ -72,6 +73,7 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
                     state.landmarks,
                     state.options,
                     state.making,
+                    state.routes,
                     state.result !== null,
                 ],
                 () => {

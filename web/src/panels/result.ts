@@ -16,8 +16,9 @@ export function resultPanel(store: Store<AppState>, actions: Actions): void {
             state.livePaths,
             state.layout,
             state.follow,
+            state.routes.length > 0,
         ],
-        (result, preview, activity, livePaths, layout, follow) => {
+        (result, preview, activity, livePaths, layout, follow, ruled) => {
             const total = layout?.edgeCount ?? 0;
             const quick = activity ? null : follow;
             const shown = result ?? (activity || follow ? null : preview);
@@ -38,7 +39,7 @@ export function resultPanel(store: Store<AppState>, actions: Actions): void {
             setText(
                 "meaning",
                 result
-                    ? meaning(result)
+                    ? meaning(result, ruled)
                     : (shown ?? quick)
                       ? "Quick, while the landmark moves; the shortest is looked for when it rests."
                       : "",

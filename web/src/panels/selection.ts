@@ -2,10 +2,12 @@ import type { Actions } from "../model/actions.js";
 import { opponentsOf } from "../model/candidates.js";
 import { formatLength } from "../model/describe.js";
 import { landmarkLabel } from "../model/landmarks.js";
+import { endsOf, priceOf, pricedRule } from "../model/routes.js";
 import type { AppState, Item } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { patchAreas } from "../view3d/geometry.js";
 import { create, element, setText } from "./dom.js";
+import { routeButtons } from "./routes.js";
 
 /** A card with the figures of the landmark, path or patch that was chosen. */
 export function selectionCard(store: Store<AppState>, actions: Actions): void {
@@ -21,6 +23,7 @@ export function selectionCard(store: Store<AppState>, actions: Actions): void {
     const move = onClick("selection-move", ({ id }) => actions.landmarks.startPlacing(id));
     const remove = onClick("selection-remove", ({ id }) => actions.landmarks.remove(id));
     onClick("selection-close", () => actions.select(null));
+    routeButtons(store, actions);
     store.watch(
         (state) => [
             state.selected,
@@ -29,6 +32,7 @@ export function selectionCard(store: Store<AppState>, actions: Actions): void {
             state.candidates,
             state.landmarks,
             state.layout,
+            state.routes,
         ],
         (selected, placing, ..._others) => {
             const figures = selected && figuresOf(selected, store.get());
@@ -65,9 +69,8 @@ function figuresOf({ kind, id }: Item, state: AppState): [string, string][] | nu
         const edge = result?.edges[id];
         if (id >= layout.edgeCount) return null;
         const place = result?.insertionOrder.indexOf(id) ?? -1;
-        const ends = layout.edges.subarray(2 * id, 2 * id + 2);
         const figures: [string, string][] = [
-            ["Between", [...ends].map((v) => landmarkLabel(landmarks, v)).join(" – ")],
+            ["Between", endsOf(id, layout, landmarks).join(" – ")],
             ["Length", edge ? formatLength(edge.length) : "–"],
             ["Cost", edge ? formatLength(edge.cost) : "–"],
         ];
@@ -78,6 +81,13 @@ function figuresOf({ kind, id }: Item, state: AppState): [string, string][] | nu
                 ["In conflict with", opponents.length > 0 ? opponents.join(", ") : "none"],
             );
         }
+        const before = pricedRule(state.routes, id)?.costBefore ?? null;
+        if (before !== null && result?.refined)
+            figures.push(
+                ["All edges before", formatLength(before)],
+                ["All edges now", formatLength(result.cost)],
+                ["Price of the route", priceOf(before, result.cost)],
+            );
         figures.push(["Embedded as number", place >= 0 ? String(place + 1) : "–"]);
         return figures;
     }

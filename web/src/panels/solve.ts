@@ -73,10 +73,13 @@ export function toggleSolve(store: Store<AppState>, actions: Actions): void {
     else void actions.solve();
 }
 
-function statusSentence({ result }: AppState): string {
+function statusSentence({ result, routes }: AppState): string {
     if (!result) return "";
     const words = statusWords[result.status];
-    if (!result.refined) return `${words}.`;
+    if (!result.refined)
+        return routes.length > 0
+            ? `${words} with these rules for routes. Undo, or remove one of them.`
+            : `${words}.`;
     return `${words}. It took ${formatSeconds(result.seconds)}.`;
 }
 
