@@ -3,6 +3,9 @@
 //
 //   node embed_wasm.mjs LAYOUT TARGET LANDMARKS WORK [ALGORITHM]
 import { readFileSync } from "node:fs";
+import { moduleMegabytes, processSeconds, threadSeconds } from "./process.mjs";
+// The memory that the package takes is watched by process.mjs.
+import { Session } from "layout-embedding";
 
 const [layoutPath, targetPath, landmarksPath, work, algorithm] = process.argv.slice(2);
 
@@ -11,44 +14,8 @@ process.on("uncaughtException", (error) => {
     process.exit(2);
 });
 
-/**
- * CPU seconds of this thread. Linux alone tells them; elsewhere they are those of the process, with
- * the compiler and the garbage collector in their own threads.
- */
-function cpuSeconds() {
-    try {
-        const [nanoseconds] = readFileSync(`/proc/self/task/${process.pid}/schedstat`, "utf8")
-            .trim()
-            .split(" ");
-        return Number(nanoseconds) / 1e9;
-    } catch {
-        return processSeconds();
-    }
-}
-
-function processSeconds() {
-    const { user, system } = process.cpuUsage();
-    return (user + system) / 1e6;
-}
-
-// The package shows the module's memory to nobody, so its memory is caught where it is made. It
-// never shrinks: its size at the end is the peak.
-const memories = [];
-const { instantiate } = WebAssembly;
-WebAssembly.instantiate = async (...args) => {
-    const result = await instantiate(...args);
-    const { memory } = (result.instance ?? result).exports;
-    if (memory !== undefined) {
-        memories.push(memory);
-    }
-    return result;
-};
-const moduleMegabytes = () =>
-    memories.reduce((sum, memory) => sum + memory.buffer.byteLength, 0) / 2 ** 20;
-
-const { Session } = await import("layout-embedding");
 const file = (path) => ({ bytes: readFileSync(path), name: path });
-const began = cpuSeconds();
+const began = threadSeconds();
 const session = await Session.create();
 const layout = await session.loadLayout(file(layoutPath));
 const target = await session.loadTarget(file(targetPath));
@@ -56,13 +23,13 @@ const { landmarks } =
     landmarksPath === "proximity"
         ? await session.landmarksByProximity()
         : await session.setLandmarks(file(landmarksPath));
-const loaded = cpuSeconds();
+const loaded = threadSeconds();
 const loadedMegabytes = moduleMegabytes();
 const result = await session.solve({
     workLimit: Number(work),
     ...(algorithm === undefined ? {} : { algorithm }),
 });
-const solved = cpuSeconds();
+const solved = threadSeconds();
 
 // Events have seconds by the clock, of which CPU seconds are a share, taken to be the same all the
 // time.

@@ -1,9 +1,10 @@
 // Meshes and landmarks that the benchmark makes itself. Additions, multiplications, divisions and
 // square roots alone, so that every machine makes the same files.
 import { readFileSync, writeFileSync } from "node:fs";
+import { cross, dot, minus, normalized, times } from "./vectors.mjs";
 
 /** SplitMix64 (Steele, Lea, Flood 2014), as in core/base/random.hh. */
-class Random {
+export class Random {
     constructor(seed) {
         this.state = BigInt(seed);
     }
@@ -27,16 +28,6 @@ class Random {
         }
     }
 }
-
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-const cross = (a, b) => [
-    a[1] * b[2] - a[2] * b[1],
-    a[2] * b[0] - a[0] * b[2],
-    a[0] * b[1] - a[1] * b[0],
-];
-const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
-const normalized = (a) => times(1 / Math.sqrt(dot(a, a)), a);
 
 const golden = (1 + Math.sqrt(5)) / 2;
 const icosahedron = {

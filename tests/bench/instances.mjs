@@ -170,7 +170,11 @@ export async function filesOf({ name, shared, generate }, dataFolder) {
                 files[role] = path.join(root, made[role]);
             }
         }
-        const sources = hashOf(["tests/bench/generate.mjs", "tests/bench/instances.mjs"]);
+        const sources = hashOf([
+            "tests/bench/generate.mjs",
+            "tests/bench/instances.mjs",
+            "tests/bench/vectors.mjs",
+        ]);
         await once(path.join(folder, "stamp"), sources, Object.values(made), () => {
             mkdirSync(path.join(root, folder), { recursive: true });
             generate(files);

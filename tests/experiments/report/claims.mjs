@@ -1,0 +1,35 @@
+// What the paper's Section 5 claims, judged by the numbers of the run: experiments list their claims with
+// a rule, the value that it is applied to, and its verdict.
+import { experiments } from "../list.mjs";
+import { escape } from "./html.mjs";
+
+const verdicts = {
+    confirmed: "confirmed",
+    passed: "passed",
+    missed: "not reached",
+    open: "not tried",
+};
+
+/**
+ * A claim: { section, paper, rule, found, verdict }, all but the verdict HTML. `confirmed`: found
+ * as the paper has it; `passed`: better; `missed`: not reached; `open`: not tried in this run.
+ */
+export function claimsTable(results) {
+    const rows = experiments
+        .filter(({ experiment }) => experiment.claims !== undefined)
+        .flatMap(({ name, experiment }) => {
+            const claims = experiment.claims(results[name]?.data ?? null);
+            return claims.map((claim) => ({ ...claim, name }));
+        })
+        .sort((a, b) => a.section.localeCompare(b.section, "en", { numeric: true }));
+    const body = rows.map(
+        ({ section, paper, rule, found, verdict, name }) =>
+            `<tr><td>${escape(section)}</td><td>${paper}</td><td>${rule}</td><td>${found} <a href="#${name}" aria-label="the experiment">↑</a></td><td class="verdict ${verdict}">${verdicts[verdict]}</td></tr>`,
+    );
+    return `<p>Verdicts follow from the run’s numbers by the rule in the third column. <i>Confirmed</i>: as the paper has it. <i>Passed</i>: the rule holds, with a better value than the paper’s. <i>Not reached</i>: the rule fails.</p><div class="wide"><table><thead><tr><th>Section</th><th>The paper’s claim</th><th>Rule</th><th>This run</th><th>Verdict</th></tr></thead><tbody>${body.join("")}</tbody></table></div>`;
+}
+
+/** A claim's verdict: `passed` where `better`, else `confirmed` or `missed`. */
+export function judge(holds, better = false) {
+    return !holds ? "missed" : better ? "passed" : "confirmed";
+}
