@@ -47,6 +47,13 @@ test("axe_finds_nothing_to_object_to_in_light_and_dark", async () => {
     await page.emulateMedia({ colorScheme: "dark" });
     expect(await violations(page, { rules: colors })).toEqual([]);
     await page.emulateMedia({ colorScheme: "light" });
+    await page.click("#tab-quads");
+    await page.locator("#loop-rows input").first().waitFor();
+    expect(await violations(page)).toEqual([]);
+    await page.emulateMedia({ colorScheme: "dark" });
+    expect(await violations(page, { rules: colors })).toEqual([]);
+    await page.emulateMedia({ colorScheme: "light" });
+    await page.click("#tab-embedding");
     // With a problem and its place.
     const repeated = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n";
     await page.setInputFiles("#target-file", textFile("repeated.obj", repeated));

@@ -20,7 +20,7 @@ test("every_control_is_reached_by_tab_and_shows_its_focus", async () => {
         for (const details of all) (details as HTMLDetailsElement).open = true;
     });
     const count = await page
-        .locator("button:enabled, input:enabled, select, summary, canvas")
+        .locator("button:enabled:not([tabindex='-1']), input:enabled, select, summary, canvas")
         .evaluateAll((all) => {
             const stops = all.filter((one) => one.checkVisibility() && !one.closest("dialog"));
             const reached: (readonly [stop: number, visible: boolean])[] = [];

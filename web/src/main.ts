@@ -17,18 +17,20 @@ import { landmarksPanel } from "./panels/landmarks.js";
 import { openLink } from "./panels/link.js";
 import { plotPanel } from "./panels/plot.js";
 import { problemsPanel } from "./panels/problems.js";
+import { quadsPanel } from "./panels/quads.js";
 import { resultPanel } from "./panels/result.js";
 import { anotherRoute, keepRoute, routesPanel } from "./panels/routes.js";
 import { shortcuts } from "./panels/shortcuts.js";
 import { solvePanel, toggleSolve } from "./panels/solve.js";
 import { stage } from "./panels/stage.js";
+import { tabList } from "./panels/tabs.js";
 import { themePanel } from "./panels/theme.js";
 import { startWorker } from "./session.js";
 import "./style/index.css";
 
 // State flows one way: actions change the store, views redraw what they watch in it.
 const store = createStore(initialState);
-const actions = new Actions(store, new Engine(startWorker));
+const actions = new Actions(store, new Engine(startWorker), startWorker);
 const openFiles = (files: readonly File[]) => {
     if (!batchTakes(files)) void keep.openFiles(files);
 };
@@ -46,6 +48,8 @@ plotPanel(store, actions);
 resultPanel(store, actions);
 candidatesPanel(store, actions);
 comparePanel(store, actions);
+tabList(store, actions);
+quadsPanel(store, actions);
 
 // Without WebGL everything but the pictures still works.
 let views: ReturnType<typeof stage> | null = null;
@@ -95,6 +99,8 @@ shortcuts([
         does: "Paths of edges alone, with their conflicts",
         act: () => void actions.toggleCandidates(),
     },
+    { key: "1", does: "The embedding's controls", act: () => actions.openTab("embedding") },
+    { key: "2", does: "Quad mesh", act: () => actions.openTab("quads") },
     { key: "d", does: "Download the three result files", act: downloadAll },
     { key: "f", does: "Fit the view", act: () => views?.fit() },
     { key: "r", does: "Reset the view", act: () => views?.reset() },

@@ -20,7 +20,7 @@ import {
     reshapeWords,
     titleOf,
 } from "./describe.js";
-import type { Engine } from "./engine.js";
+import type { Engine, Worker } from "./engine.js";
 import { assignRoles, look } from "./files.js";
 import { LandmarkEditor, unsolved } from "./landmark_editor.js";
 import {
@@ -32,10 +32,12 @@ import {
 } from "./landmarks.js";
 import { landmarksOf, lineOf, meshPlace } from "./places.js";
 import type { Store } from "./store.js";
-import type { Activity, AppState, Display, Item, Origin, Problem } from "./state.js";
+import type { Activity, AppState, Display, Item, Origin, Problem, Tab } from "./state.js";
+import { QuadPreview } from "./quad_preview.js";
 import { RouteEditor } from "./route_editor.js";
 import { droppedWords, fits, type RouteRule } from "./routes.js";
 import { TraceRecorder } from "./trace.js";
+import { Workshop } from "./workshop.js";
 
 /** The same file or arrays can be read again: file contents are fetched each time. */
 export type Source = File | MeshInput;
@@ -87,6 +89,7 @@ async function inputOf(source: Source): Promise<MeshInput> {
 export class Actions {
     readonly landmarks: LandmarkEditor;
     readonly routes: RouteEditor;
+    readonly quadMesh: QuadPreview;
     private readonly batch: Batch;
     private readonly sources: Partial<Record<Role, Source>> = {};
     private queue: Promise<void> = Promise.resolve();
@@ -99,6 +102,8 @@ export class Actions {
     constructor(
         private readonly store: Store<AppState>,
         private readonly engine: Engine,
+        /** Starts a worker of its own for what can only be ended with its worker. */
+        startWorker: () => Promise<Worker>,
     ) {
         this.landmarks = new LandmarkEditor(store, {
             dragged: (id) => void this.preview(id),
@@ -107,6 +112,7 @@ export class Actions {
         this.routes = new RouteEditor(store, this.landmarks, () =>
             store.get().live ? this.queue : this.solve(),
         );
+        this.quadMesh = new QuadPreview(store, new Workshop(engine, startWorker));
         this.batch = new Batch(engine, (entries, running) => {
             const { batch } = store.get();
             if (batch) store.update({ batch: { ...batch, entries, running } });
@@ -436,6 +442,10 @@ export class Actions {
 
     select(item: Item | null): void {
         this.store.update({ selected: item });
+    }
+
+    openTab(tab: Tab): void {
+        this.store.update({ tab });
     }
 
     show(change: Partial<Display>): void {

@@ -15,11 +15,17 @@ const counts = new Intl.NumberFormat("en");
 export const formatLength = (value: number): string =>
     Number.isFinite(value) ? numbers.format(value) : "–";
 
+export const formatWhole = (value: number): string => counts.format(value);
+
 export const formatCount = (value: number, noun: string, plural = `${noun}s`): string =>
     `${counts.format(value)} ${value === 1 ? noun : plural}`;
 
 export const formatGap = (gap: number): string =>
     gap === 0 ? "0 %" : `${(100 * gap).toFixed(gap < 0.001 ? 4 : 2)} %`;
+
+/** How much longer or shorter something is than before, with its sign. */
+export const formatChange = (before: number, now: number): string =>
+    `${now >= before ? "+" : "−"}${formatGap(Math.abs(now - before) / before)}`;
 
 export const formatSeconds = (seconds: number): string =>
     `${seconds.toFixed(seconds < 10 ? 2 : 1)} s`;

@@ -229,7 +229,8 @@ export class Engine {
         return session;
     }
 
-    private async loadInto(session: EmbeddingSession): Promise<void> {
+    /** Gives a session of another worker the layout and the target. */
+    async loadInto(session: EmbeddingSession): Promise<void> {
         if (this.layout) await session.loadLayout(...this.layout);
         if (this.target) await session.loadTarget(...this.target);
     }

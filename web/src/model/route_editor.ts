@@ -1,6 +1,6 @@
 import type { LandmarkEditor } from "./landmark_editor.js";
-import { formatLength } from "./describe.js";
-import { keptRule, priceOf, ruleFor, type RouteRule } from "./routes.js";
+import { formatChange, formatLength } from "./describe.js";
+import { keptRule, ruleFor, type RouteRule } from "./routes.js";
 import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
 
@@ -30,7 +30,7 @@ export class RouteEditor {
         this.store.update({
             announcement:
                 `Edge ${edge} takes another route. All edges cost ${formatLength(now.result.cost)}, ` +
-                `${priceOf(before, now.result.cost)}.`,
+                `${formatChange(before, now.result.cost)}.`,
         });
     }
 

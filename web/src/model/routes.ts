@@ -24,13 +24,6 @@ export const keptRule = (routes: readonly RouteRule[], edge: number): RouteRule 
 export const pricedRule = (routes: readonly RouteRule[], edge: number): RouteRule | null =>
     routes.findLast((one) => one.edge === edge && one.costBefore !== null) ?? null;
 
-/** What a rule made dearer, as a share with its sign. */
-export function priceOf(before: number, now: number): string {
-    const percent = (100 * (now - before)) / before;
-    const sign = percent < 0 ? "−" : "+";
-    return `${sign}${Math.abs(percent).toFixed(Math.abs(percent) < 0.1 ? 3 : 2)} %`;
-}
-
 /** Whether the path of a rule leads from landmark to landmark of its edge, and past all others. */
 export function fits(
     { edge, path }: PathConstraint,

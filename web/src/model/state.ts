@@ -12,6 +12,7 @@ import type {
     UncheckedMesh,
 } from "layout-embedding";
 import type { Landmarks } from "./landmarks.js";
+import { noQuads, type QuadState } from "./quads.js";
 import type { RouteRule } from "./routes.js";
 import type { Trace } from "./trace.js";
 
@@ -138,6 +139,9 @@ export interface Origin {
     readonly name: string;
 }
 
+/** What the panel is about, and the target's view with it. */
+export type Tab = "embedding" | "quads";
+
 export type Theme = "system" | "light" | "dark";
 
 /** What is drawn, and how. */
@@ -209,6 +213,8 @@ export interface AppState {
     readonly highlight: Item | null;
     /** Chosen with a click or a key. */
     readonly selected: Item | null;
+    readonly tab: Tab;
+    readonly quadMesh: QuadState;
     readonly display: Display;
 }
 
@@ -252,6 +258,8 @@ export const initialState: AppState = {
     announcement: "",
     highlight: null,
     selected: null,
+    tab: "embedding",
+    quadMesh: noQuads,
     display: {
         layoutShown: true,
         patchesShown: true,

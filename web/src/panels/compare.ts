@@ -1,6 +1,6 @@
 import type { EmbedResult } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
-import { algorithmWords, formatGap, formatLength } from "../model/describe.js";
+import { algorithmWords, formatChange, formatLength } from "../model/describe.js";
 import { longestDetour } from "../model/detours.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
@@ -66,9 +66,8 @@ function costWords(other: EmbedResult, result: EmbedResult): string {
 
 function excessWords(other: EmbedResult, result: EmbedResult): string {
     if (!other.refined) return "dead end";
-    const more = (other.cost - result.cost) / result.cost;
-    if (more === 0) return "the same";
-    return `${more >= 0 ? "+" : "−"}${formatGap(Math.abs(more))}`;
+    if (other.cost === result.cost) return "the same";
+    return formatChange(result.cost, other.cost);
 }
 
 function detourWords(other: EmbedResult, result: EmbedResult): string {

@@ -22,6 +22,15 @@ export function create<Tag extends keyof HTMLElementTagNameMap>(
     return made;
 }
 
+/** Names and values as the rows of a list of figures. */
+export function figureRows(figures: readonly (readonly [string, string])[]): HTMLElement[] {
+    return figures.map(([name, value]) => {
+        const row = create("div");
+        row.append(create("dt", name), create("dd", value));
+        return row;
+    });
+}
+
 /** Hands bytes to the browser's downloads. */
 export function download(name: string, content: Blob): void {
     const url = URL.createObjectURL(content);

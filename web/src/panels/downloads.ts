@@ -41,13 +41,14 @@ export function downloadsPanel(
         return button;
     };
     const all = onClick("download-all", async () => {
-        const { landmarks, target } = store.get();
+        const { landmarks, target, quadMesh } = store.get();
         const files: Zippable = {
             ...(await actions.exportFiles()),
             ...(await actions.exportFormats(singleFormats)),
         };
         const ids = landmarks && completeIds(landmarks);
         if (ids && target) files["landmarks.txt"] = strToU8(landmarkFile(ids, target));
+        if (quadMesh.mesh) files["quads.obj"] = quadMesh.mesh.obj;
         // A layout that was made here is nowhere else.
         const { layout } = actions.saved();
         if (layout && "corners" in layout) files["layout.obj"] = objOf(layout);

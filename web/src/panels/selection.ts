@@ -1,12 +1,12 @@
 import type { Actions } from "../model/actions.js";
 import { opponentsOf } from "../model/candidates.js";
-import { formatLength } from "../model/describe.js";
+import { formatChange, formatLength } from "../model/describe.js";
 import { landmarkLabel } from "../model/landmarks.js";
-import { endsOf, priceOf, pricedRule } from "../model/routes.js";
+import { endsOf, pricedRule } from "../model/routes.js";
 import type { AppState, Item } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { patchAreas } from "../view3d/geometry.js";
-import { create, element, setText } from "./dom.js";
+import { element, figureRows, setText } from "./dom.js";
 import { routeButtons } from "./routes.js";
 
 /** A card with the figures of the landmark, path or patch that was chosen. */
@@ -40,13 +40,7 @@ export function selectionCard(store: Store<AppState>, actions: Actions): void {
             if (!selected || !figures) return;
             move.hidden = remove.hidden = selected.kind !== "vertex";
             setText("selection-title", titleOf(selected, store.get()));
-            element("selection-figures", HTMLElement).replaceChildren(
-                ...figures.map(([name, value]) => {
-                    const row = create("div");
-                    row.append(create("dt", name), create("dd", value));
-                    return row;
-                }),
-            );
+            element("selection-figures", HTMLElement).replaceChildren(...figureRows(figures));
         },
     );
 }
@@ -86,7 +80,7 @@ function figuresOf({ kind, id }: Item, state: AppState): [string, string][] | nu
             figures.push(
                 ["All edges before", formatLength(before)],
                 ["All edges now", formatLength(result.cost)],
-                ["Price of the route", priceOf(before, result.cost)],
+                ["Price of the route", formatChange(before, result.cost)],
             );
         figures.push(["Embedded as number", place >= 0 ? String(place + 1) : "–"]);
         return figures;

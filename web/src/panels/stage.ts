@@ -3,6 +3,7 @@ import type {
     EmbedResult,
     PathShape,
     Polylines,
+    QuadMesh,
     RefinedMesh,
 } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
@@ -106,6 +107,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
             state.trace,
             state.candidates,
             state.candidates?.shown ? state.selected : null,
+            shownQuads(state),
         ],
         () => {
             const state = store.get();
@@ -285,12 +287,17 @@ const surfaceInputs = (state: AppState) =>
         state.target,
         state.display.patchesShown ? (shownResult(state)?.refined ?? null) : null,
         state.layout,
+        shownQuads(state),
     ] as const;
 
-function surfaceOf(state: AppState): [RefinedMesh | null, AppState["layout"]] {
-    const [, refined, layout] = surfaceInputs(state);
-    return [refined, layout];
+function surfaceOf(state: AppState): [RefinedMesh | null, AppState["layout"], QuadMesh | null] {
+    const [, refined, layout, quads] = surfaceInputs(state);
+    return [refined, layout, quads];
 }
+
+/** The quad mesh that is shown instead of patches and paths; null for none. */
+const shownQuads = ({ tab, quadMesh }: AppState): QuadMesh | null =>
+    tab === "quads" ? quadMesh.mesh : null;
 
 function compareSurface({
     comparison,
@@ -306,7 +313,13 @@ function chainsOf(result: EmbedResult | null): Polylines | null {
 }
 
 function pathsOf(state: AppState): Polylines | null {
-    const { step, trace, livePaths, candidates, follow } = state;
+    const { step, trace, livePaths, candidates, follow, layout } = state;
+    const quads = shownQuads(state);
+    if (quads)
+        return chainPaths(
+            quads.chains.slice(0, layout?.edgeCount).map((chain, id) => ({ id, chain })),
+            quads,
+        );
     if (step !== null) return trace.incumbents[step]?.paths ?? null;
     if (candidates?.shown) return candidates.found.paths;
     return follow?.paths ?? chainsOf(shownResult(state)) ?? livePaths;

@@ -11,6 +11,7 @@ import type {
     EmbeddedEdge,
     LayoutInfo,
     Polylines,
+    QuadMesh,
     RefinedMesh,
     TargetInfo,
 } from "layout-embedding";
@@ -67,13 +68,33 @@ export interface FacedSurface {
     readonly faceOffsets: Uint32Array;
 }
 
+/** Triangles with a layout face each. */
+export type PatchedMesh = Pick<RefinedMesh, "positions" | "corners" | "patches">;
+
+/** The quads as triangles, cut along their shorter diagonals. */
+export function trianglesOf({ positions, quads, faces }: QuadMesh): PatchedMesh {
+    const corners = new Uint32Array(6 * faces.length);
+    const patches = new Int32Array(2 * faces.length);
+    const distance = (a: number, b: number) =>
+        Math.hypot(...[0, 1, 2].map((i) => positions[3 * a + i]! - positions[3 * b + i]!));
+    faces.forEach((face, q) => {
+        const [a = 0, b = 0, c = 0, d = 0] = quads.subarray(4 * q, 4 * q + 4);
+        corners.set(
+            distance(a, c) <= distance(b, d) ? [a, b, c, a, c, d] : [a, b, d, b, c, d],
+            6 * q,
+        );
+        patches.fill(face, 2 * q, 2 * q + 2);
+    });
+    return { positions, corners, patches };
+}
+
 /**
  * The refined mesh with a colour per patch. Vertices between patches are doubled, one copy per
  * patch, so that the colours stay sharp while the shading stays smooth. What lies outside all
  * patches comes last.
  */
 export function patchSurface(
-    refined: RefinedMesh,
+    refined: PatchedMesh,
     colorOfPatch: Uint32Array,
     outside: string,
 ): FacedSurface {
@@ -241,8 +262,11 @@ function triangulate(points: readonly Vector3[]): number[][] {
     );
 }
 
-/** The chains of an embedding as polylines on its refined mesh. */
-export function chainPaths(edges: readonly EmbeddedEdge[], refined: RefinedMesh): Polylines {
+/** The chains of an embedding, or of a quad mesh, as polylines. */
+export function chainPaths(
+    edges: readonly Pick<EmbeddedEdge, "id" | "chain">[],
+    refined: Pick<RefinedMesh, "positions">,
+): Polylines {
     const offsets = new Uint32Array(edges.length + 1);
     edges.forEach((edge, i) => {
         offsets[i + 1] = offsets[i]! + edge.chain.length;

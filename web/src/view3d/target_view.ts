@@ -1,11 +1,12 @@
 import { DoubleSide, FrontSide, Vector3 } from "three";
-import type { LayoutInfo, Polylines, RefinedMesh, TargetInfo } from "layout-embedding";
+import type { LayoutInfo, Polylines, QuadMesh, RefinedMesh, TargetInfo } from "layout-embedding";
 import type { Landmarks } from "../model/landmarks.js";
 import { currentTheme, patchColors } from "./colors.js";
 import { Dots, type Dot } from "./dots.js";
-import { PatchFinder, patchSurface, plainSurface, vertexNormals } from "./geometry.js";
+import { PatchFinder, patchSurface, plainSurface, trianglesOf, vertexNormals } from "./geometry.js";
 import { MeshView, type ViewHit, type ViewListener } from "./mesh_view.js";
 import { glide, sameEdges } from "./morph.js";
+import { QuadLines } from "./quad_lines.js";
 import { SurfacePicker } from "./surface_picker.js";
 
 /** The target, with landmarks, paths and patches on it. */
@@ -18,16 +19,18 @@ export class TargetView extends MeshView {
     private patches: PatchFinder | null = null;
     /** Where a landmark would go. */
     private readonly ghost = new Dots(-0.15, 0.7);
+    private readonly lines = new QuadLines();
     private endGlide = () => {};
 
     constructor(host: HTMLElement, label: string, listener: ViewListener) {
         super(host, label, -0.15, listener);
-        this.viewer.content.add(this.ghost.points);
+        this.viewer.content.add(this.ghost.points, this.lines.group);
     }
 
     override applyTheme(): void {
         super.applyTheme();
         this.ghost.setTheme(currentTheme());
+        this.lines.setTheme(currentTheme());
     }
 
     setTarget(target: TargetInfo | null): void {
@@ -39,16 +42,25 @@ export class TargetView extends MeshView {
         this.viewer.frameOn(target?.positions ?? []);
     }
 
-    /** Shows the patches of an embedding, or the bare target. */
-    setSurface(refined: RefinedMesh | null, layout: LayoutInfo | null): void {
+    /**
+     * Shows the patches of an embedding, or the bare target; or a quad mesh in its place, in the
+     * colours of the patches if there is an embedding.
+     */
+    setSurface(
+        refined: RefinedMesh | null,
+        layout: LayoutInfo | null,
+        quads: QuadMesh | null = null,
+    ): void {
         const theme = currentTheme();
         const { target, material } = this;
         const patched = target !== null && refined !== null && layout !== null;
         this.refined = patched ? refined : null;
         this.patches = null;
-        if (patched) {
-            this.setSurfaceGeometry(patchSurface(refined, patchColors(layout), theme.clay));
-            material.color.set(0xffffff);
+        this.lines.setMesh(quads, layout?.edgeCount ?? 0);
+        const drawn = quads ? trianglesOf(quads) : patched ? refined : null;
+        if (drawn && layout) {
+            this.setSurfaceGeometry(patchSurface(drawn, patchColors(layout), theme.clay));
+            material.color.set(patched ? 0xffffff : theme.clay);
         } else {
             this.setSurfaceGeometry(target ? plainSurface(target, this.normals) : null);
             material.color.set(theme.clay);
@@ -98,6 +110,11 @@ export class TargetView extends MeshView {
             this.tubes.setPaths(between);
             this.viewer.requestRender();
         });
+    }
+
+    override setClip(share: number): void {
+        super.setClip(share);
+        this.lines.setClip(this.material.clippingPlanes);
     }
 
     /** Brings a target vertex into the middle of the view. */
