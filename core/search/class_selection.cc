@@ -11,6 +11,8 @@ ClassSelection::ClassSelection(const Layout& layout, const WalkPool& pool,
     : layout_(layout),
       pool_(pool),
       is_linear_(std::move(is_linear)),
+      crossings_(pool),
+      sat_(crossings_),
       edges_(layout.edge_count()),
       choices_(layout.edge_count(), kNone)
 {}
@@ -55,7 +57,7 @@ void ClassSelection::add_class(Index walk)
     }
     const Index e = pool_.layout_edge(walk);
     Edge& edge = edges_[e];
-    const Literal chosen = sat_.add_variable(edge.walks.empty());
+    const Literal chosen = sat_.add_member(walk, edge.walks.empty());
     const Literal rest = sat_.add_variable();
     if (edge.rest == kTrue) {
         sat_.add_clause({chosen, rest});
@@ -70,11 +72,6 @@ void ClassSelection::add_class(Index walk)
     ++class_count_;
     if (pool_.cost(walk) > edge.base) {
         sat_.add_clause({WeightedSat::negate(chosen), level(e, pool_.cost(walk))});
-    }
-    for (const Index other : pool_.crossing(walk)) {
-        if (literal(other) != kNone) {
-            sat_.add_clause({WeightedSat::negate(chosen), WeightedSat::negate(literal(other))});
-        }
     }
     for (const Index h : {2 * e, 2 * e + 1}) {
         const Index v = layout_.tail(h);

@@ -73,9 +73,17 @@ private:
     bool is_wrong(const std::array<Index, 3>& halfedges, const std::array<Index, 3>& walks) const;
     void forbid_order(const std::array<Index, 3>& walks);
 
+    /// Walks that cross.
+    struct Crossings : Exclusions {
+        explicit Crossings(const WalkPool& pool) : pool(pool) {}
+        const IndexSet& excluded(Index walk) const override { return pool.crossing(walk); }
+        const WalkPool& pool;
+    };
+
     const Layout& layout_;
     const WalkPool& pool_;
     std::vector<bool> is_linear_;
+    Crossings crossings_;
     WeightedSat sat_;
     std::vector<Edge> edges_;
     std::vector<Literal> literals_;  // per walk; kNone if it is not known here

@@ -81,10 +81,9 @@ bool PartialEmbedding::in_order(Index halfedge, Index walk) const
 
 bool PartialEmbedding::fits(Index walk) const
 {
-    for (const Index other : pool_.crossing(walk)) {
-        if (walks_[pool_.layout_edge(other)] == other) {
-            return false;
-        }
+    if (std::any_of(sequence_.begin(), sequence_.end(),
+                    [&](Index other) { return pool_.cross(walk, other); })) {
+        return false;
     }
     const Index edge = pool_.layout_edge(walk);
     return in_order(2 * edge, walk) && in_order(2 * edge + 1, walk);
@@ -194,16 +193,22 @@ bool PartialEmbedding::order_conflict(Index halfedge_a, Index walk_a, Index half
 CandidateConflicts PartialEmbedding::conflicts(std::span<const Index> candidates) const
 {
     CandidateConflicts found;
+    IndexSet in_question;
+    for (Index e = 0; e < candidates.size(); ++e) {
+        if (walks_[e] == kNone) {
+            in_question.insert(candidates[e]);
+        }
+    }
     for (Index a = 0; a < candidates.size(); ++a) {
         if (walks_[a] != kNone) {
             continue;
         }
-        for (const Index other : pool_.crossing(candidates[a])) {
+        pool_.crossing(candidates[a]).for_each_common(in_question, [&](Index other) {
             const Index b = pool_.layout_edge(other);
-            if (a < b && walks_[b] == kNone && candidates[b] == other) {
+            if (a < b) {
                 found.pairs.emplace_back(a, b);
             }
-        }
+        });
     }
     std::vector<Index> open;  // halfedges
     for (Index v = 0; v < layout().vertex_count(); ++v) {
@@ -252,9 +257,8 @@ std::vector<Index> PartialEmbedding::conflicting_with(Index layout_edge,
 {
     std::vector<Index> edges;
     const Index walk = candidates[layout_edge];
-    for (const Index other : pool_.crossing(walk)) {
-        const Index e = pool_.layout_edge(other);
-        if (walks_[e] == kNone && candidates[e] == other) {
+    for (Index e = 0; e < candidates.size(); ++e) {
+        if (walks_[e] == kNone && pool_.cross(walk, candidates[e])) {
             edges.push_back(e);
         }
     }

@@ -13,6 +13,8 @@ constexpr std::uint64_t kRestartUnit = 64;
 constexpr Index kGoodDistance = 3;  // learned clauses of few blocks are kept
 // Clauses looked at per unit of work: an expanded node of a path search takes about as long.
 constexpr std::uint64_t kClausesPerWork = 12;
+// Words of a set of exclusions gone through in the time of looking at a clause.
+constexpr std::uint64_t kWordsPerLook = 8;
 // Storing a clause takes as long as looking at so many.
 constexpr std::uint64_t kLooksPerStored = 4;
 
@@ -49,22 +51,58 @@ SatSolver::Literal SatSolver::add_variable(bool preferred)
     seen_.push_back(0);
     model_.push_back(phase);
     watches_.resize(watches_.size() + 2);
+    implied_.resize(implied_.size() + 2);
     heap_places_[variable] = static_cast<Index>(heap_.size());
     heap_.push_back(variable);
     sift_up(heap_places_[variable]);
     return 2 * variable;
 }
 
+SatSolver::Literal SatSolver::add_member(Index member, bool preferred)
+{
+    const Literal l = add_variable(preferred);
+    members_.resize(l / 2 + 1, kNone);
+    members_[l / 2] = member;
+    if (member >= member_variables_.size()) {
+        member_variables_.resize(member + 1, kNone);
+    }
+    member_variables_[member] = l / 2;
+    go_back(0);
+    const bool may_hold = exclusions_->excluded(member).all_of([&](Index other) {
+        return other >= member_variables_.size() || member_variables_[other] == kNone ||
+               !is_true(2 * member_variables_[other]);
+    });
+    if (!may_hold) {
+        add_clause({negate(l)});
+    }
+    return l;
+}
+
+/// The literals of a clause, one of which is `other`; of one with two, until the next call.
+std::span<const SatSolver::Literal> SatSolver::literals(Clause c, Literal other)
+{
+    if ((c & kBinary) != 0) {
+        pair_ = {c ^ kBinary, other};
+        return pair_;
+    }
+    return {literals(c), size(c)};
+}
+
+/// Takes note of a clause. What it is known by says why the first literal holds.
 SatSolver::Clause SatSolver::store(std::span<const Literal> literals, Index block_distance)
 {
-    const auto clause = static_cast<Clause>(arena_.size());
     uncharged_ += kLooksPerStored;
+    if (literals.size() == 2) {
+        implied_[negate(literals[0])].push_back(literals[1]);
+        implied_[negate(literals[1])].push_back(literals[0]);
+        return literals[1] | kBinary;
+    }
+    const auto clause = static_cast<Clause>(arena_.size());
     arena_.push_back(static_cast<Index>(literals.size()));
     arena_.push_back(block_distance);
     arena_.insert(arena_.end(), literals.begin(), literals.end());
-    const Index is_binary = literals.size() == 2 ? 1 : 0;
-    watches_[literals[0]].push_back({clause, is_binary, literals[1]});
-    watches_[literals[1]].push_back({clause, is_binary, literals[0]});
+    watches_[literals[0]].push_back({clause, literals[1]});
+    watches_[literals[1]].push_back({clause, literals[0]});
     if (block_distance > 0) {
         learned_.push_back(clause);
     }
@@ -110,12 +148,31 @@ void SatSolver::assign(Literal l, Clause reason)
     trail_.push_back(l);
 }
 
-/// Draws all conclusions; the clause that is violated, kNone if none is.
+/// Draws all conclusions; the clause that is violated, one literal of which is violated_, kNone if
+/// none is.
 SatSolver::Clause SatSolver::propagate()
 {
     while (propagated_ < trail_.size()) {
-        const Literal falsified = negate(trail_[propagated_++]);
+        const Literal holding = trail_[propagated_++];
+        const Literal falsified = negate(holding);
         ++uncharged_;
+        for (const Literal l : implied_[holding]) {
+            if (!imply(l, falsified)) {
+                return falsified | kBinary;
+            }
+        }
+        const Index variable = holding / 2;
+        if ((holding & 1U) == 0 && variable < members_.size() && members_[variable] != kNone) {
+            const IndexSet& excluded = exclusions_->excluded(members_[variable]);
+            uncharged_ += excluded.word_count() / kWordsPerLook;
+            const bool agrees = excluded.all_of([&](Index other) {
+                return other >= member_variables_.size() || member_variables_[other] == kNone ||
+                       imply(negate(2 * member_variables_[other]), falsified);
+            });
+            if (!agrees) {
+                return falsified | kBinary;
+            }
+        }
         auto& watches = watches_[falsified];
         std::size_t kept = 0;
         for (std::size_t i = 0; i < watches.size(); ++i) {
@@ -125,35 +182,33 @@ SatSolver::Clause SatSolver::propagate()
                 continue;
             }
             ++uncharged_;
-            Literal first = watch.blocker;
-            if (watch.is_binary == 0) {
-                Literal* of_clause = literals(watch.clause);
-                if (of_clause[0] == falsified) {
-                    std::swap(of_clause[0], of_clause[1]);
-                }
-                first = of_clause[0];
-                if (first != watch.blocker && is_true(first)) {
-                    watches[kept++] = {watch.clause, 0, first};
-                    continue;
-                }
-                const Index count = size(watch.clause);
-                Index k = 2;
-                while (k < count && is_false(of_clause[k])) {
-                    ++k;
-                }
-                if (k < count) {
-                    std::swap(of_clause[1], of_clause[k]);
-                    watches_[of_clause[1]].push_back({watch.clause, 0, first});
-                    continue;
-                }
+            Literal* of_clause = literals(watch.clause);
+            if (of_clause[0] == falsified) {
+                std::swap(of_clause[0], of_clause[1]);
             }
-            watches[kept++] = {watch.clause, watch.is_binary, first};
+            const Literal first = of_clause[0];
+            if (first != watch.blocker && is_true(first)) {
+                watches[kept++] = {watch.clause, first};
+                continue;
+            }
+            const Index count = size(watch.clause);
+            Index k = 2;
+            while (k < count && is_false(of_clause[k])) {
+                ++k;
+            }
+            if (k < count) {
+                std::swap(of_clause[1], of_clause[k]);
+                watches_[of_clause[1]].push_back({watch.clause, first});
+                continue;
+            }
+            watches[kept++] = {watch.clause, first};
             if (is_false(first)) {
                 while (++i < watches.size()) {
                     watches[kept++] = watches[i];
                 }
                 watches.resize(kept);
                 propagated_ = trail_.size();
+                violated_ = first;
                 return watch.clause;
             }
             assign(first, watch.clause);
@@ -161,6 +216,23 @@ SatSolver::Clause SatSolver::propagate()
         watches.resize(kept);
     }
     return kNone;
+}
+
+/// Concludes that `l` holds, in a clause with `falsified` alone; false, with violated_, where it
+/// does not.
+bool SatSolver::imply(Literal l, Literal falsified)
+{
+    if (is_true(l)) {
+        return true;
+    }
+    ++uncharged_;
+    if (is_false(l)) {
+        propagated_ = trail_.size();
+        violated_ = l;
+        return false;
+    }
+    assign(l, falsified | kBinary);
+    return true;
 }
 
 void SatSolver::go_back(Index to)
@@ -191,8 +263,8 @@ bool SatSolver::is_implied(Literal l)
     if (reason == kNoReason) {
         return false;
     }
-    const Literal* of_reason = literals(reason);
-    return std::all_of(of_reason, of_reason + size(reason), [&](Literal other) {
+    const auto of_reason = literals(reason, negate(l));
+    return std::all_of(of_reason.begin(), of_reason.end(), [&](Literal other) {
         return other / 2 == l / 2 || seen_[other / 2] != 0 || levels_[other / 2] == 0;
     });
 }
@@ -207,9 +279,7 @@ Index SatSolver::learn(Clause conflict)
     Literal current = kNone;
     do {
         ++uncharged_;
-        const Literal* of_clause = literals(conflict);
-        for (Index k = 0; k < size(conflict); ++k) {
-            const Literal l = of_clause[k];
+        for (const Literal l : literals(conflict, current == kNone ? violated_ : current)) {
             const Index variable = l / 2;
             if (l == current || seen_[variable] != 0 || levels_[variable] == 0) {
                 continue;
@@ -266,10 +336,9 @@ void SatSolver::explain(Literal failed)
                 core_.push_back(l);
             }
         } else {
-            const Literal* of_reason = literals(reason);
-            for (Index k = 0; k < size(reason); ++k) {
-                if (levels_[of_reason[k] / 2] > 0) {
-                    seen_[of_reason[k] / 2] = 1;
+            for (const Literal other : literals(reason, l)) {
+                if (levels_[other / 2] > 0) {
+                    seen_[other / 2] = 1;
                 }
             }
         }
@@ -361,6 +430,16 @@ void SatSolver::forget()
     learned_.clear();
     for (auto& watches : watches_) {
         watches.clear();
+    }
+    for (Literal l = 0; l < implied_.size(); ++l) {
+        auto& implied = implied_[l];
+        if (is_true(l) || is_false(l)) {
+            implied.clear();
+        } else {
+            implied.erase(std::remove_if(implied.begin(), implied.end(),
+                                         [&](Literal other) { return is_true(other); }),
+                          implied.end());
+        }
     }
     for (std::size_t c = 0; c < old.size(); c += old[c] + 2) {
         std::span<Literal> of_clause(old.data() + c + 2, old[c]);

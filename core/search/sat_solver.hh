@@ -1,13 +1,24 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/index_set.hh"
 #include "base/types.hh"
 #include "search/work_budget.hh"
 
 namespace layout_embedding {
+
+/// Members of which certain pairs exclude each other, known from elsewhere.
+class Exclusions {
+public:
+    virtual ~Exclusions() = default;
+    /// The members that this one excludes; symmetric. Members may be added, but what is said of
+    /// two members stays as it is.
+    virtual const IndexSet& excluded(Index member) const = 0;
+};
 
 /// Boolean satisfiability by conflict-driven clause learning (Marques-Silva and Sakallah 1999; Een
 /// and Soerensson 2003): two watched literals, first unique implication points, activities,
@@ -22,9 +33,16 @@ public:
 
     enum class Outcome { running, satisfiable, unsatisfiable };
 
+    SatSolver() = default;
+    /// Keeps a reference: variables that stand for members obey the exclusions, as by a clause per
+    /// pair.
+    explicit SatSolver(const Exclusions& exclusions) : exclusions_(&exclusions) {}
+
     /// A new variable, as its positive literal. Until something else is learned it is tried with
     /// the value `preferred` first.
     Literal add_variable(bool preferred = false);
+    /// A new variable that stands for a member of the exclusions.
+    Literal add_member(Index member, bool preferred = false);
     Index variable_count() const { return static_cast<Index>(assigns_.size()); }
     /// Of the literals, at least one holds. Not while a call is `running`.
     void add_clause(std::span<const Literal> literals);
@@ -56,17 +74,20 @@ private:
     using Value = std::uint8_t;  // the sign of the literal that holds; kUnassigned
     static constexpr Value kUnassigned = 2;
 
-    // A clause is a place in arena_: size, then block distance (0: not learned), then literals.
+    // A clause of three literals or more is a place in arena_: size, then block distance (0: not
+    // learned), then literals. One of two is known by one of them, with the mark kBinary, where it
+    // says why the other one holds.
     using Clause = Index;
+    static constexpr Clause kBinary = Index{1} << 31U;
     struct Watch {
-        Clause clause : 31;
-        Index is_binary : 1;  // the blocker is the only other literal
-        Literal blocker;      // another literal of the clause
+        Clause clause;
+        Literal blocker;  // another literal of the clause
     };
 
     Index size(Clause c) const { return arena_[c]; }
     Index& distance(Clause c) { return arena_[c + 1]; }
     Literal* literals(Clause c) { return arena_.data() + c + 2; }
+    std::span<const Literal> literals(Clause c, Literal other);
 
     bool is_true(Literal l) const { return assigns_[l / 2] == (l & 1U); }
     bool is_false(Literal l) const { return assigns_[l / 2] == ((l & 1U) ^ 1U); }
@@ -75,6 +96,7 @@ private:
     Clause store(std::span<const Literal> literals, Index block_distance);
     void assign(Literal l, Clause reason);
     Clause propagate();
+    bool imply(Literal l, Literal falsified);
     void go_back(Index level);
     Index learn(Clause conflict);
     bool is_implied(Literal l);
@@ -85,10 +107,16 @@ private:
     void sift_down(Index place);
     void forget();
 
+    const Exclusions* exclusions_ = nullptr;
+    std::vector<Index> members_;           // per variable, as far as needed; kNone
+    std::vector<Index> member_variables_;  // per member; kNone
+
     std::vector<Index> arena_;
     std::vector<Clause> learned_;
-    std::uint64_t wasted_ = 0;
+    std::vector<std::vector<Literal>> implied_;  // per literal: those that hold if it does
     std::vector<std::vector<Watch>> watches_;  // per literal: clauses to look at when it gets false
+    std::array<Literal, 2> pair_;              // a clause of two literals
+    Literal violated_ = kNone;                 // one literal of the clause violated
     std::vector<Value> assigns_;
     std::vector<Value> phases_;
     std::vector<Value> preferred_;

@@ -36,7 +36,17 @@ public:
         exceeded,
     };
 
+    WeightedSat() = default;
+    /// Keeps a reference.
+    explicit WeightedSat(const Exclusions& exclusions) : solver_(exclusions) {}
+
     Literal add_variable(bool preferred = false) { return solver_.add_variable(preferred); }
+    /// A variable that stands for a member of the exclusions.
+    Literal add_member(Index member, bool preferred = false)
+    {
+        changed_ = true;
+        return solver_.add_member(member, preferred);
+    }
     /// At least one of the literals holds. Not while a step is `running`; likewise below.
     void add_clause(std::span<const Literal> literals);
     void add_clause(std::initializer_list<Literal> literals)

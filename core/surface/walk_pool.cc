@@ -35,31 +35,21 @@ Index WalkPool::add(Index layout_edge, const std::vector<Index>& darts)
     return id;
 }
 
-bool WalkPool::cross(Index a, Index b) const
-{
-    if (walks_[a].crossing.size() > walks_[b].crossing.size()) {
-        std::swap(a, b);
-    }
-    return std::binary_search(walks_[a].crossing.begin(), walks_[a].crossing.end(), b);
-}
-
 void WalkPool::find_crossings(Index walk)
 {
     Walk& a = walks_[walk];
     for (Index i = 0; i < a.inner_count(); ++i) {
         auto& visits = visits_of_nodes_[graph_.head(a.darts[i])];
         for (const Visit& visit : visits) {
-            if (visit.walk != walk && walks_[visit.walk].layout_edge != a.layout_edge &&
-                stretch_crosses(graph_, a.darts, i, walks_[visit.walk].darts, visit.k)) {
-                a.crossing.push_back(visit.walk);
+            Walk& b = walks_[visit.walk];
+            if (visit.walk != walk && b.layout_edge != a.layout_edge &&
+                !a.crossing.contains(visit.walk) &&
+                stretch_crosses(graph_, a.darts, i, b.darts, visit.k)) {
+                a.crossing.insert(visit.walk);
+                b.crossing.insert(walk);
             }
         }
         visits.push_back({walk, i});
-    }
-    std::sort(a.crossing.begin(), a.crossing.end());
-    a.crossing.erase(std::unique(a.crossing.begin(), a.crossing.end()), a.crossing.end());
-    for (const Index other : a.crossing) {
-        walks_[other].crossing.push_back(walk);
     }
 }
 

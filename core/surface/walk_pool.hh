@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "base/index_set.hh"
 #include "base/types.hh"
 #include "surface/strands.hh"
 
@@ -31,9 +31,9 @@ public:
     Length cost(Index walk) const { return walks_[walk].cost; }
 
     /// The walks of other edges that truly cross this one (a shared stretch entered and left on
-    /// opposite sides; stretches that end at a landmark do not count). Ascending.
-    std::span<const Index> crossing(Index walk) const { return walks_[walk].crossing; }
-    bool cross(Index a, Index b) const;
+    /// opposite sides; stretches that end at a landmark do not count).
+    const IndexSet& crossing(Index walk) const { return walks_[walk].crossing; }
+    bool cross(Index a, Index b) const { return walks_[a].crossing.contains(b); }
 
     /// The place of a walk among all walks known at the tail of layout halfedge h, which belongs to
     /// the walk's edge: counter-clockwise, walks that share a dart ordered by where they diverge.
@@ -48,7 +48,7 @@ private:
         Index layout_edge;
         std::vector<Index> darts;
         Length cost;
-        std::vector<Index> crossing;
+        IndexSet crossing;
         Index places[2];  // at its start and at its end
 
         Index inner_count() const { return static_cast<Index>(darts.size() - 1); }

@@ -45,7 +45,7 @@ export function describeMachine(builds) {
         }
         const commands = JSON.parse(readFileSync(file, "utf8"));
         const [compiler, ...args] = commands
-            .find((command) => command.file.endsWith("embed_job.cc"))
+            .find(({ command }) => command.includes("core/CMakeFiles/layout_embedding.dir"))
             .command.split(/\s+/);
         const shown = args.filter((arg) => /^-(O|D|f|std|m|W)/.test(arg));
         return `${firstLine(output(compiler, ["--version"]))}, ${shown.join(" ")}`;
