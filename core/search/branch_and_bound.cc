@@ -15,9 +15,9 @@ namespace {
 
 // What the evaluation of a child charges: with all answers remembered it takes about as long as
 // this many expansions.
-std::uint64_t child_work(Index edge_count)
+std::uint64_t child_work(Index edge_count, Index pair_count)
 {
-    return 4 + edge_count / 12;
+    return 4 + edge_count / 12 + pair_count / 8;
 }
 
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
@@ -65,12 +65,14 @@ void assert_conflicts(PartialEmbedding& embedding, const std::vector<Index>& can
 }  // namespace
 
 BranchAndBound::BranchAndBound(PartialEmbedding& embedding, PathOracle& oracle,
-                               Incumbent& incumbent, const BranchAndBoundOptions& options)
+                               DistanceFields& fields, Incumbent& incumbent,
+                               const BranchAndBoundOptions& options)
     : embedding_(embedding),
       oracle_(oracle),
       incumbent_(incumbent),
       options_(options),
       edge_count_(embedding.layout().edge_count()),
+      pairs_(embedding, oracle, fields),
       candidates_(edge_count_, kNone)
 {}
 
@@ -192,13 +194,63 @@ BranchAndBound::Outcome BranchAndBound::find_root(WorkBudget& budget)
     child_.bound = root_bound_;
     child_.updates = candidates_;
     told_bound_ = root_bound_;
+    if (options_.pairwise_bounds && options_.candidate_bounds) {
+        pairs_.begin(candidates_);
+    } else {
+        has_pairs_ = true;
+    }
     return Outcome::bounded;
+}
+
+/// What conflicting pairs cost together, at the root.
+BranchAndBound::Outcome BranchAndBound::find_pairs(WorkBudget& budget)
+{
+    switch (pairs_.run(budget)) {
+        case PairwiseBound::Outcome::running:
+            return Outcome::running;
+        case PairwiseBound::Outcome::tied:
+            return Outcome::tied;
+        case PairwiseBound::Outcome::finished:
+            break;
+    }
+    has_pairs_ = true;
+    root_bound_ += std::min(pair_surplus(), kInfiniteLength - root_bound_);
+    if (root_bound_ == kInfiniteLength) {
+        finished_ = true;
+        return Outcome::finished;
+    }
+    told_bound_ = root_bound_;
+    return Outcome::bounded;
+}
+
+/// How much more than embedded paths and candidates the present state costs at least, by pairs.
+Length BranchAndBound::pair_surplus()
+{
+    if (pairs_.pair_count() == 0) {
+        return 0;
+    }
+    costs_.clear();
+    for (Index e = 0; e < edge_count_; ++e) {
+        const Index walk = embedding_.walk(e) == kNone ? candidates_[e] : embedding_.walk(e);
+        costs_.push_back(embedding_.pool().cost(walk));
+    }
+    return pairs_.surplus(costs_);
+}
+
+SearchCounters BranchAndBound::counters() const
+{
+    SearchCounters counters = counters_;
+    counters.expansions += pairs_.expansion_count();
+    return counters;
 }
 
 BranchAndBound::Outcome BranchAndBound::run(WorkBudget& budget)
 {
     if (next_root_ < edge_count_) {
         return find_root(budget);
+    }
+    if (!has_pairs_ && !finished_) {
+        return find_pairs(budget);
     }
     if (nodes_.empty() && !finished_) {
         const Outcome outcome = add_state(kNone, 0);
@@ -275,7 +327,7 @@ BranchAndBound::Outcome BranchAndBound::evaluate_child(WorkBudget& budget)
         if (budget.is_spent()) {
             return Outcome::running;
         }
-        budget.charge(child_work(edge_count_));
+        budget.charge(child_work(edge_count_, pairs_.pair_count()));
         const Outcome outcome = begin_child(edge);
         if (!in_child_) {
             return outcome;
@@ -387,7 +439,10 @@ BranchAndBound::Outcome BranchAndBound::add_state(Index walk, std::uint64_t hash
     if (branches.empty()) {
         return accept_candidates();
     }
-    const Length bound = options_.candidate_bounds ? child_.bound : embedding_.cost();
+    const Length bound =
+        options_.candidate_bounds
+            ? child_.bound + std::min(pair_surplus(), kInfiniteLength - child_.bound)
+            : embedding_.cost();
     if (bound >= prune_threshold() || nodes_.size() >= options_.max_states) {
         drop(bound);
         return Outcome::finished;

@@ -7,6 +7,7 @@
 
 #include "base/types.hh"
 #include "search/incumbent.hh"
+#include "search/pairwise_bound.hh"
 #include "search/partial_embedding.hh"
 #include "search/path_oracle.hh"
 #include "search/solver.hh"
@@ -21,6 +22,8 @@ struct BranchAndBoundOptions {
     double gap = 0.01;
     /// Count candidate paths in lower bounds (Sec. 4.3), not only embedded ones.
     bool candidate_bounds = true;
+    /// Add what conflicting pairs of edges cost together (design, Sec. 2): not in the paper.
+    bool pairwise_bounds = true;
     /// Drop states whose embedding has been met before (Sec. 4.4.1).
     bool detect_redundant_states = true;
     /// Branch on conflicting edges only (Sec. 4.4.2).
@@ -52,18 +55,18 @@ public:
 
     /// Keeps references; `embedding` is empty. The incumbent may be given one by others at any
     /// time.
-    BranchAndBound(PartialEmbedding& embedding, PathOracle& oracle, Incumbent& incumbent,
-                   const BranchAndBoundOptions& options);
+    BranchAndBound(PartialEmbedding& embedding, PathOracle& oracle, DistanceFields& fields,
+                   Incumbent& incumbent, const BranchAndBoundOptions& options);
 
     /// Continues until something happens or the budget is spent.
     Outcome run(WorkBudget& budget);
 
     /// The cost of every embedding that insertion sequences reach is at least this.
     Length lower_bound() const;
-    /// The sum of the unconstrained paths: bounds all embeddings. 0 while it is not known.
+    /// The sum of the unconstrained paths, with what pairs of edges add: bounds all embeddings. 0 while it is not known.
     Length root_bound() const { return next_root_ < edge_count_ ? 0 : root_bound_; }
-    /// The counts of states; the others are 0.
-    const SearchCounters& counters() const { return counters_; }
+    /// The counts of states, and the expansions by enumerations; the others are 0.
+    SearchCounters counters() const;
 
 private:
     /// A state of the search: its parent's, and one walk more.
@@ -91,6 +94,8 @@ private:
     };
 
     Outcome find_root(WorkBudget& budget);
+    Outcome find_pairs(WorkBudget& budget);
+    Length pair_surplus();
     bool take_node();
     Outcome evaluate_child(WorkBudget& budget);
     Outcome begin_child(Index edge);
@@ -110,6 +115,8 @@ private:
     Incumbent& incumbent_;
     BranchAndBoundOptions options_;
     Index edge_count_;
+    PairwiseBound pairs_;
+    bool has_pairs_ = false;
     Index next_root_ = 0;
     bool finished_ = false;
     Length root_bound_ = 0;
@@ -123,6 +130,7 @@ private:
     Index current_ = kNone;          // node being expanded
     Length candidate_bound_ = 0;     // of the current node: embedded paths and candidates
     std::vector<Index> candidates_;  // walk per layout edge, of the current node or child
+    std::vector<Length> costs_;      // likewise
     std::vector<Index> branches_;    // edges to insert, and the next of them
     std::size_t next_branch_ = 0;
     bool in_child_ = false;

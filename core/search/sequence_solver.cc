@@ -20,7 +20,8 @@ SequenceSolver::SequenceSolver(const EmbeddingProblem& problem, const PathGraph&
                                                     options.branch_and_bound.gap)
                  : nullptr),
       started_(!options.greedy_start),
-      branch_and_bound_(space_.embedding, space_.oracle, space_.incumbent, options.branch_and_bound)
+      branch_and_bound_(space_.embedding, space_.oracle, space_.fields, space_.incumbent,
+                        options.branch_and_bound)
 {}
 
 Solver::Outcome SequenceSolver::run(WorkBudget& budget)

@@ -99,7 +99,8 @@ function readOptions() {
                 compare: flag,
                 check: flag,
                 update: flag,
-                algorithm: text,
+                algorithm: { type: "string", default: "exact" },
+                gap: { type: "string", default: "0" },
                 filter: { type: "string", default: "" },
                 only: text,
                 limit: { type: "string", default: "20" },
@@ -115,15 +116,16 @@ function readOptions() {
     if (values.only !== undefined && programs[values.only] === undefined) {
         throw new StepError(`--only ${values.only} has to be native or wasm`);
     }
+    if (!(Number(values.gap) >= 0 && Number(values.gap) < 1)) {
+        throw new StepError(`--gap ${values.gap} has to be a number from 0 to 1`);
+    }
     return { ...values, limit };
 }
 
 /** Runs one instance in one build; { error } where that failed. */
 function measure([program, ...first], { layout, target, landmarks }, workLimit, options) {
-    const args = [...first, layout, target, landmarks, String(workLimit)];
-    if (options.algorithm !== undefined) {
-        args.push(options.algorithm);
-    }
+    const { algorithm, gap } = options;
+    const args = [...first, layout, target, landmarks, String(workLimit), algorithm, gap];
     // Only for what hangs: the limit on work ends it long before.
     const timeout = 1000 * (300 + 20 * options.limit);
     const { status, signal, stdout, stderr } = spawnSync(program, args, {

@@ -1,13 +1,13 @@
 // One embedding in WebAssembly, measured for bench.mjs: the same as bench_embed.cc, through the
 // package.
 //
-//   node embed_wasm.mjs LAYOUT TARGET LANDMARKS WORK [ALGORITHM]
+//   node embed_wasm.mjs LAYOUT TARGET LANDMARKS WORK [ALGORITHM [GAP]]
 import { readFileSync } from "node:fs";
 import { moduleMegabytes, processSeconds, threadSeconds } from "./process.mjs";
 // The memory that the package takes is watched by process.mjs.
 import { Session } from "layout-embedding";
 
-const [layoutPath, targetPath, landmarksPath, work, algorithm] = process.argv.slice(2);
+const [layoutPath, targetPath, landmarksPath, work, algorithm, gap] = process.argv.slice(2);
 
 process.on("uncaughtException", (error) => {
     console.error(error.message);
@@ -28,6 +28,7 @@ const loadedMegabytes = moduleMegabytes();
 const result = await session.solve({
     workLimit: Number(work),
     ...(algorithm === undefined ? {} : { algorithm }),
+    ...(gap === undefined ? {} : { gap: Number(gap) }),
 });
 const solved = threadSeconds();
 

@@ -69,7 +69,7 @@ struct Search {
           pool(ground.strands),
           embedding(ground.strands, pool),
           oracle(embedding, ground.search, remember),
-          branch_and_bound(embedding, oracle, incumbent, options)
+          branch_and_bound(embedding, oracle, ground.fields, incumbent, options)
     {}
 
     /// Runs to the end in slices, and looks at the bounds on the way.
@@ -124,17 +124,18 @@ TEST(BranchAndBound, without_tolerance_it_finds_the_best_of_all_insertion_sequen
 {
     int branched = 0;
     std::size_t most_states = 0;
-    std::uint64_t states[5] = {};
+    std::uint64_t states[6] = {};
     for (const Instance& instance : tiny_instances(101, 320)) {
         SCOPED_TRACE(instance.name);
         const AllSequences all(instance.problem);
         most_states = std::max(most_states, all.state_count());
-        for (int off = 0; off <= 4; ++off) {
+        for (int off = 0; off <= 5; ++off) {
             BranchAndBoundOptions options = exact();
             options.candidate_bounds = off != 1;
             options.detect_redundant_states = off != 2;
             options.delay_non_conflicting = off != 3;
             options.mixed_priority = off != 4;
+            options.pairwise_bounds = off != 5;
             Search search(instance.problem, options);
             search.finish();
             EXPECT_EQ(search.incumbent.cost(), all.best());
@@ -154,6 +155,7 @@ TEST(BranchAndBound, without_tolerance_it_finds_the_best_of_all_insertion_sequen
     EXPECT_GT(states[2], states[0]);
     EXPECT_GT(states[3], states[0]);
     EXPECT_NE(states[4], states[0]);
+    EXPECT_GT(states[5], states[0]);
 }
 
 TEST(BranchAndBound, remembered_explanations_save_searches_and_change_nothing_else)
