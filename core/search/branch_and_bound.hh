@@ -63,7 +63,8 @@ public:
 
     /// The cost of every embedding that insertion sequences reach is at least this.
     Length lower_bound() const;
-    /// The sum of the unconstrained paths, with what pairs of edges add: bounds all embeddings. 0 while it is not known.
+    /// The sum of the unconstrained paths, with what pairs of edges add: bounds all embeddings. 0
+    /// while it is not known.
     Length root_bound() const { return next_root_ < edge_count_ ? 0 : root_bound_; }
     /// The counts of states, and the expansions by enumerations; the others are 0.
     SearchCounters counters() const;

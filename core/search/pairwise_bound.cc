@@ -61,8 +61,7 @@ PairwiseBound::Outcome PairwiseBound::run(WorkBudget& budget)
             cost = kInfiniteLength;  // refused: the class is in no embedding
             continue;
         }
-        const auto answer =
-            oracle_.find(b_yields ? pair.b : pair.a, kInfiniteLength, budget);
+        const auto answer = oracle_.find(b_yields ? pair.b : pair.a, kInfiniteLength, budget);
         if (answer.outcome == PathOracle::Outcome::running) {
             return Outcome::running;
         }
@@ -96,8 +95,8 @@ PairwiseBound::Outcome PairwiseBound::find_second(Index edge, WorkBudget& budget
         found_ += outcome == ClassEnumeration::Outcome::found ? 1 : 0;
         if (found_ == 2 || outcome == ClassEnumeration::Outcome::exceeded ||
             expansions_left_ == 0) {
-            seconds_[edge] = std::max(
-                seconds_[edge], found_ == 2 ? enumeration_.cost() : enumeration_.frontier());
+            seconds_[edge] = std::max(seconds_[edge],
+                                      found_ == 2 ? enumeration_.cost() : enumeration_.frontier());
             is_enumerating_ = false;
             return Outcome::finished;
         }
@@ -116,9 +115,9 @@ void PairwiseBound::combine()
         const Length b = pool.cost(root_walks_[pair.b]);
         const Length second_a = seconds_[pair.a];
         const Length second_b = seconds_[pair.b];
-        pair.together = std::min({sum(a, std::max(pair.b_beside_a, second_b)),
-                                  sum(b, std::max(pair.a_beside_b, second_a)),
-                                  sum(second_a, second_b)});
+        pair.together =
+            std::min({sum(a, std::max(pair.b_beside_a, second_b)),
+                      sum(b, std::max(pair.a_beside_b, second_a)), sum(second_a, second_b)});
     }
 }
 
