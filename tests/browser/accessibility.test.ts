@@ -53,6 +53,15 @@ test("axe_finds_nothing_to_object_to_in_light_and_dark", async () => {
     await page.emulateMedia({ colorScheme: "dark" });
     expect(await violations(page, { rules: colors })).toEqual([]);
     await page.emulateMedia({ colorScheme: "light" });
+    await page.click("#tab-map");
+    await page.click("#map-shapes button");
+    await page.locator("#map-figures dd").first().waitFor();
+    await page.fill("#map-vertex", "7");
+    await page.press("#map-vertex", "Enter");
+    expect(await violations(page)).toEqual([]);
+    await page.emulateMedia({ colorScheme: "dark" });
+    expect(await violations(page, { rules: colors })).toEqual([]);
+    await page.emulateMedia({ colorScheme: "light" });
     await page.click("#tab-embedding");
     // With a problem and its place.
     const repeated = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n";

@@ -45,6 +45,7 @@ import type {
 } from "./types.js";
 
 export { LayoutError } from "./errors.js";
+export { mapFiles } from "./map_files.js";
 export type * from "./types.js";
 
 export interface WorkerOptions {

@@ -27,6 +27,7 @@ export { Session } from "./session.js";
 export { LayoutError, type ErrorInfo } from "./errors.js";
 export { batchTable } from "./batch.js";
 export { readReferenceInput } from "./formats.js";
+export { mapFiles } from "./map_files.js";
 export type { EmbeddingDocument, InputRecord, RefinedMapDocument } from "./files.js";
 export type * from "./types.js";
 

@@ -1,8 +1,24 @@
 // What is written of a map: the images of vertices as JSON, the overlay as OBJ on either target.
+import { jsonBytes } from "./files.js";
 import type { SurfaceMap, SurfacePoints } from "./types.js";
 
 /** The version of map.json. */
 const fileVersion = 1;
+
+/**
+ * The files of a map, by name; the reference is `a`. `texture`: 6 texture coordinates per face of the
+ * reference, two for each corner, which go along on both sides.
+ */
+export function mapFiles(
+    map: SurfaceMap,
+    texture: Float64Array | null = null,
+): Record<"map.json" | "overlay_a.obj" | "overlay_b.obj", Uint8Array> {
+    return {
+        "map.json": jsonBytes(mapDocument(map)),
+        "overlay_a.obj": overlayObj(map, "reference", texture),
+        "overlay_b.obj": overlayObj(map, "target", texture),
+    };
+}
 
 /** map.json: `a` is the reference. */
 export function mapDocument(map: SurfaceMap) {

@@ -15,6 +15,7 @@ import { inputPanel } from "./panels/input.js";
 import { keepWork } from "./panels/keep.js";
 import { landmarksPanel } from "./panels/landmarks.js";
 import { openLink } from "./panels/link.js";
+import { mapPanel } from "./panels/map.js";
 import { plotPanel } from "./panels/plot.js";
 import { problemsPanel } from "./panels/problems.js";
 import { quadsPanel } from "./panels/quads.js";
@@ -32,9 +33,10 @@ import "./style/index.css";
 const store = createStore(initialState);
 const actions = new Actions(store, new Engine(startWorker), startWorker);
 const openFiles = (files: readonly File[]) => {
-    if (!batchTakes(files)) void keep.openFiles(files);
+    if (!batchTakes(files) && !mapTakes(files)) void keep.openFiles(files);
 };
 const batchTakes = batchPanel(store, actions);
+const mapTakes = mapPanel(store, actions);
 
 themePanel(store, actions);
 problemsPanel(store, actions);
@@ -82,7 +84,10 @@ shortcuts([
         key: "Enter",
         does: "In the target's view: place the landmark at its middle",
     },
-    { key: "Shift+arrows", does: "Move the chosen landmark to a neighbouring vertex" },
+    {
+        key: "Shift+arrows",
+        does: "Move the chosen landmark to a neighbouring vertex; with a map, the cursor",
+    },
     { key: "Delete", does: "Take the chosen landmark off the target", act: () => views?.remove() },
     {
         key: "x",
@@ -101,6 +106,7 @@ shortcuts([
     },
     { key: "1", does: "The embedding's controls", act: () => actions.openTab("embedding") },
     { key: "2", does: "Quad mesh", act: () => actions.openTab("quads") },
+    { key: "3", does: "Map to a second target", act: () => actions.openTab("map") },
     { key: "d", does: "Download the three result files", act: downloadAll },
     { key: "f", does: "Fit the view", act: () => views?.fit() },
     { key: "r", does: "Reset the view", act: () => views?.reset() },

@@ -1,8 +1,7 @@
 // layout-embedding map: one layout in two targets, and the map between these.
 import path from "node:path";
 import { javaScriptError } from "../errors.js";
-import { jsonBytes } from "../files.js";
-import { mapDocument, overlayObj, textureCoordinates } from "../map_files.js";
+import { mapFiles, textureCoordinates } from "../map_files.js";
 import { Session } from "../session.js";
 import type { SurfaceMap } from "../types.js";
 import type { MapCommand } from "./arguments.js";
@@ -53,15 +52,9 @@ export async function runMap(command: MapCommand): Promise<Outcome> {
             }
         }
         const map = await session.mapFromReference(command.map);
-        const document = mapDocument(map);
-        files.push(
-            ...(await output.write({
-                "map.json": jsonBytes(document),
-                "overlay_a.obj": overlayObj(map, "reference", texture),
-                "overlay_b.obj": overlayObj(map, "target", texture),
-            })),
-        );
-        const { distortion, firstDistortion, overlayTriangles } = document;
+        files.push(...(await output.write(mapFiles(map, texture))));
+        const { distortion, firstDistortion, overlay } = map;
+        const overlayTriangles = overlay.patches.length;
         return {
             exitCode: exitCodes.success,
             text: command.quiet ? "" : `${mapText(map)}\nwritten: ${files.join(", ")}`,

@@ -30,6 +30,7 @@ import {
     placedLandmarks,
     type Landmarks,
 } from "./landmarks.js";
+import { Mapping } from "./mapping.js";
 import { landmarksOf, lineOf, meshPlace } from "./places.js";
 import type { Store } from "./store.js";
 import type { Activity, AppState, Display, Item, Origin, Problem, Tab } from "./state.js";
@@ -90,6 +91,7 @@ export class Actions {
     readonly landmarks: LandmarkEditor;
     readonly routes: RouteEditor;
     readonly quadMesh: QuadPreview;
+    readonly map: Mapping;
     private readonly batch: Batch;
     private readonly sources: Partial<Record<Role, Source>> = {};
     private queue: Promise<void> = Promise.resolve();
@@ -113,6 +115,7 @@ export class Actions {
             store.get().live ? this.queue : this.solve(),
         );
         this.quadMesh = new QuadPreview(store, new Workshop(engine, startWorker));
+        this.map = new Mapping(store, new Workshop(engine, startWorker));
         this.batch = new Batch(engine, (entries, running) => {
             const { batch } = store.get();
             if (batch) store.update({ batch: { ...batch, entries, running } });

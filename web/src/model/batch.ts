@@ -6,7 +6,7 @@ import type { BatchEntry, BatchFigures, SolveSettings } from "./state.js";
 
 /** A landmark file's name after that of its target: "cow.txt", "cow_landmarks.txt". */
 const landmarkSuffix = /[._-]landmarks$/i;
-const isLandmarkFile = ({ name }: File) => /\.(txt|vts|pp|json)$/i.test(name);
+export const isLandmarkFile = ({ name }: File) => /\.(txt|vts|pp|json)$/i.test(name);
 const baseOf = ({ name }: File) => name.replace(/(\.mrk)?\.[^.]*$/i, "");
 
 /** The targets among some files, each with the landmark file named like it, and what is left. */

@@ -157,6 +157,14 @@ export function causeAndAdvice(message: string): { cause: string; advice: string
     return { cause: sentence(cause), advice: sentence(advice.replace(/ \(--\w+\)/g, "")) };
 }
 
+/** Cause and advice of something thrown. */
+export function sentencesOf(error: unknown): string {
+    const { cause, advice } = causeAndAdvice(
+        error instanceof Error ? error.message : String(error),
+    );
+    return `${cause} ${advice}`.trim();
+}
+
 /** The words with a full stop and, unless they begin with a file's name, a capital. */
 export function sentence(words: string): string {
     const capital = words.replace(/^[a-z]+(?= )/, (word) => capitalised(word));

@@ -1,5 +1,6 @@
 import type { EmbedResult, QuadMesh, QuadOptions } from "layout-embedding";
-import { causeAndAdvice } from "./describe.js";
+import { sentencesOf } from "./describe.js";
+import { Latest } from "./latest.js";
 import type { QuadState } from "./quads.js";
 import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
@@ -14,10 +15,7 @@ const calm = 350;
  * way is ended for them.
  */
 export class QuadPreview {
-    /** Counts the changes; what is made for an older one is not wanted any more. */
-    private wish = 0;
-    private waiting = false;
-    private running = false;
+    private readonly latest = new Latest();
     private relaxing = false;
 
     constructor(
@@ -56,37 +54,34 @@ export class QuadPreview {
 
     /** Ends a relaxation; the mesh stays as it is. */
     stop(): void {
-        ++this.wish;
-        this.waiting = false;
+        this.latest.drop();
         if (this.relaxing) this.workshop.stop();
         this.update({ phase: null });
     }
 
     private refresh(): void {
-        ++this.wish;
-        this.waiting = true;
         if (this.relaxing) this.workshop.stop();
-        if (!this.running) void this.run();
+        this.latest.do((isWanted) => this.make(isWanted));
     }
 
-    private async run(): Promise<void> {
-        this.running = true;
-        while (this.waiting) {
-            this.waiting = false;
-            const made = this.wish;
-            const { result, quadMesh, tab } = this.store.get();
-            if (!result?.refined || tab !== "quads") break;
-            try {
-                await this.make(result, quadMesh, made);
-            } catch (error) {
-                if (made === this.wish) this.fail(error);
-            }
+    private async make(isWanted: () => boolean): Promise<void> {
+        const { result, quadMesh, tab } = this.store.get();
+        if (!result?.refined || tab !== "quads") return;
+        try {
+            await this.makeOf(result, quadMesh, isWanted);
+        } catch (error) {
+            if (isWanted()) this.fail(error);
+        } finally {
+            this.relaxing = false;
+            if (isWanted()) this.update({ phase: null });
         }
-        this.running = false;
     }
 
-    private async make(result: EmbedResult, settings: QuadState, made: number): Promise<void> {
-        const { edgeLength, segments } = settings;
+    private async makeOf(
+        result: EmbedResult,
+        { edgeLength, segments }: QuadState,
+        isWanted: () => boolean,
+    ): Promise<void> {
         const options: QuadOptions = { segments, ...(edgeLength !== null && { edgeLength }) };
         this.update({ phase: "Making quads", error: null });
         const session = await this.workshop.embedded(result);
@@ -94,16 +89,11 @@ export class QuadPreview {
         if (this.store.get().result !== result) return;
         this.show(rough, result, false);
         await new Promise((resolve) => setTimeout(resolve, calm));
-        if (made !== this.wish) return;
+        if (!isWanted()) return;
         this.update({ phase: "Evening the quads out" });
         this.relaxing = true;
-        try {
-            const relaxed = await session.quads(options);
-            if (made === this.wish) this.show(relaxed, result, true);
-        } finally {
-            this.relaxing = false;
-        }
-        if (made === this.wish) this.update({ phase: null });
+        const relaxed = await session.quads(options);
+        if (isWanted()) this.show(relaxed, result, true);
     }
 
     private show(mesh: QuadMesh, of: EmbedResult, isRelaxed: boolean): void {
@@ -111,11 +101,7 @@ export class QuadPreview {
     }
 
     private fail(error: unknown): void {
-        if (isStopped(error)) return this.update({ phase: null });
-        const { cause, advice } = causeAndAdvice(
-            error instanceof Error ? error.message : String(error),
-        );
-        this.update({ phase: null, error: `${cause} ${advice}`.trim() });
+        if (!isStopped(error)) this.update({ error: sentencesOf(error) });
     }
 
     private update(change: Partial<QuadState>): void {

@@ -12,6 +12,7 @@ import type {
     UncheckedMesh,
 } from "layout-embedding";
 import type { Landmarks } from "./landmarks.js";
+import { noMap, type MapState } from "./maps.js";
 import { noQuads, type QuadState } from "./quads.js";
 import type { RouteRule } from "./routes.js";
 import type { Trace } from "./trace.js";
@@ -140,7 +141,7 @@ export interface Origin {
 }
 
 /** What the panel is about, and the target's view with it. */
-export type Tab = "embedding" | "quads";
+export type Tab = "embedding" | "quads" | "map";
 
 export type Theme = "system" | "light" | "dark";
 
@@ -215,6 +216,7 @@ export interface AppState {
     readonly selected: Item | null;
     readonly tab: Tab;
     readonly quadMesh: QuadState;
+    readonly map: MapState;
     readonly display: Display;
 }
 
@@ -260,6 +262,7 @@ export const initialState: AppState = {
     selected: null,
     tab: "embedding",
     quadMesh: noQuads,
+    map: noMap,
     display: {
         layoutShown: true,
         patchesShown: true,

@@ -19,6 +19,7 @@ import type { MeshView, Sighting } from "../view3d/mesh_view.js";
 import { PlaceView } from "../view3d/place_view.js";
 import { TargetView } from "../view3d/target_view.js";
 import { element, setText } from "./dom.js";
+import { arrowSteps, mapStage, shownMap } from "./map_stage.js";
 import { selectionCard } from "./selection.js";
 import { onThemeChange } from "./theme.js";
 
@@ -75,7 +76,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
     link(views, store);
     onThemeChange(store, () => {
         for (const view of views) view.applyTheme();
-        targetView.setSurface(...surfaceOf(store.get()));
+        if (!shownMap(store.get())) targetView.setSurface(...surfaceOf(store.get()));
         compareView?.setSurface(...compareSurface(store.get()));
     });
 
@@ -87,7 +88,9 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
         (state) => [state.layout],
         (layout) => layoutView.setLayout(layout),
     );
-    store.watch(surfaceInputs, () => targetView.setSurface(...surfaceOf(store.get())));
+    store.watch(surfaceInputs, () => {
+        if (!shownMap(store.get())) targetView.setSurface(...surfaceOf(store.get()));
+    });
     store.watch(
         (state) => [state.target, state.landmarks],
         (_, landmarks) => targetView.setLandmarks(landmarks),
@@ -108,6 +111,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
             state.candidates,
             state.candidates?.shown ? state.selected : null,
             shownQuads(state),
+            shownMap(state) !== null,
         ],
         () => {
             const state = store.get();
@@ -136,7 +140,6 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
         (comparison, result) => {
             const shown = comparison?.shown ?? null;
             const figure = element("compare-view", HTMLElement);
-            figure.hidden = shown === null;
             if (shown === null) return;
             if (!compareView) {
                 compareView = new TargetView(figure, `Heuristic in 3D. ${keys}`, {
@@ -164,15 +167,25 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
         },
     );
     store.watch(
-        (state) => [state.display.layoutShown, state.comparison],
-        (shown, comparison) => {
+        (state) => [state.display.layoutShown, state.comparison, state.tab === "map"],
+        (shown, comparison, mapping) => {
             const comparing = comparison !== null && comparison.shown !== null;
-            element("layout-view", HTMLElement).hidden = !shown || comparing;
+            const two = comparing || mapping;
+            element("layout-view", HTMLElement).hidden = !shown || two;
+            element("compare-view", HTMLElement).hidden = !comparing || mapping;
             const main = element("stage", HTMLElement);
-            main.classList.toggle("alone", !shown && !comparing);
-            main.classList.toggle("comparing", comparing);
+            main.classList.toggle("alone", !shown && !two);
+            main.classList.toggle("comparing", two);
         },
     );
+    mapStage(store, actions, targetView, keys, (view) => {
+        views.push(view);
+        link(views, store);
+        const { display } = store.get();
+        view.setWireframe(display.wireframe);
+        view.setDotsVisible(display.dotsShown);
+        view.viewer.setParallel(display.orthographic);
+    });
     bannerWhilePlacing(store, actions);
     selectionCard(store, actions);
     placesOfProblems(store, actions, targetView);
@@ -187,8 +200,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
     checkbox("show-paths", "pathsShown", (on) => views.forEach((view) => view.setPathsVisible(on)));
     checkbox("show-dots", "dotsShown", (on) => views.forEach((view) => view.setDotsVisible(on)));
     checkbox("show-wireframe", "wireframe", (on) => {
-        targetView.setWireframe(on);
-        compareView?.setWireframe(on);
+        for (const view of views) if (view !== layoutView) view.setWireframe(on);
     });
     checkbox("show-layout", "layoutShown");
     checkbox("link-cameras", "camerasLinked");
@@ -288,6 +300,8 @@ const surfaceInputs = (state: AppState) =>
         state.display.patchesShown ? (shownResult(state)?.refined ?? null) : null,
         state.layout,
         shownQuads(state),
+        // Patches come back when the map goes.
+        shownMap(state) !== null,
     ] as const;
 
 function surfaceOf(state: AppState): [RefinedMesh | null, AppState["layout"], QuadMesh | null] {
@@ -314,6 +328,8 @@ function chainsOf(result: EmbedResult | null): Polylines | null {
 
 function pathsOf(state: AppState): Polylines | null {
     const { step, trace, livePaths, candidates, follow, layout } = state;
+    // The optimised map has moved the paths.
+    if (shownMap(state)) return null;
     const quads = shownQuads(state);
     if (quads)
         return chainPaths(
@@ -381,12 +397,6 @@ function bannerWhilePlacing(store: Store<AppState>, actions: Actions): void {
 /** Landmarks by keyboard, in the target's view. */
 function keysInTarget(store: Store<AppState>, actions: Actions, view: TargetView): void {
     const editor = actions.landmarks;
-    const steps: Record<string, [number, number]> = {
-        ArrowLeft: [-1, 0],
-        ArrowRight: [1, 0],
-        ArrowUp: [0, 1],
-        ArrowDown: [0, -1],
-    };
     const { canvas } = view.viewer;
     /** Shows where Enter would place the landmark, to those who work with the keys. */
     const aim = () => {
@@ -401,7 +411,7 @@ function keysInTarget(store: Store<AppState>, actions: Actions, view: TargetView
     canvas.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         const { landmarks, selected, placing } = store.get();
-        const step = event.shiftKey ? steps[event.key] : undefined;
+        const step = event.shiftKey ? arrowSteps[event.key] : undefined;
         if (step && selected?.kind === "vertex") {
             const vertex = landmarks?.places[selected.id];
             const next =

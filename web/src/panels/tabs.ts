@@ -3,7 +3,7 @@ import type { AppState, Tab } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { element } from "./dom.js";
 
-const tabs: readonly Tab[] = ["embedding", "quads"];
+const tabs: readonly Tab[] = ["embedding", "quads", "map"];
 
 /** The tabs above the controls: arrow keys go from one to the next, as everywhere. */
 export function tabList(store: Store<AppState>, actions: Actions): void {

@@ -2,6 +2,7 @@ import {
     BufferGeometry,
     DoubleSide,
     Mesh,
+    type Material,
     MeshBasicMaterial,
     MeshLambertMaterial,
     type Plane,
@@ -22,6 +23,8 @@ export interface Sighting {
     readonly item: Item | null;
     /** The nearest target vertex without another landmark; null in the layout's view. */
     readonly vertex: number | null;
+    /** Where the surface is seen; null where it is not. */
+    readonly hit: Pick<ViewHit, "face" | "point"> | null;
 }
 
 /** What a view tells of the pointer; who listens decides what it means. */
@@ -44,7 +47,10 @@ export abstract class MeshView {
         polygonOffsetFactor: 1,
         polygonOffsetUnits: 1,
     });
-    protected readonly mesh = new Mesh(new BufferGeometry(), this.material);
+    protected readonly mesh: Mesh<BufferGeometry, Material> = new Mesh(
+        new BufferGeometry(),
+        this.material,
+    );
     protected readonly overlay = new Mesh(
         new BufferGeometry(),
         new MeshBasicMaterial({
@@ -146,7 +152,7 @@ export abstract class MeshView {
         );
         const item =
             found ?? (hit && hit.patch >= 0 ? ({ kind: "face", id: hit.patch } as const) : null);
-        return { item, vertex: hit ? this.vertexAt(hit, dragged) : null };
+        return { item, vertex: hit ? this.vertexAt(hit, dragged) : null, hit };
     }
 
     /**

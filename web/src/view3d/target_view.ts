@@ -1,13 +1,26 @@
-import { DoubleSide, FrontSide, Vector3 } from "three";
-import type { LayoutInfo, Polylines, QuadMesh, RefinedMesh, TargetInfo } from "layout-embedding";
+import { DoubleSide, FrontSide, Triangle, Vector3 } from "three";
+import type {
+    LayoutInfo,
+    Polylines,
+    QuadMesh,
+    RefinedMesh,
+    SurfaceMap,
+    TargetInfo,
+} from "layout-embedding";
+import { placeOf, type FacePoint, type Side } from "../model/correspondence.js";
 import type { Landmarks } from "../model/landmarks.js";
+import type { Texture } from "../model/maps.js";
+import { carriedMaterial, carriedSurface } from "./carried_surface.js";
 import { currentTheme, patchColors } from "./colors.js";
 import { Dots, type Dot } from "./dots.js";
 import { PatchFinder, patchSurface, plainSurface, trianglesOf, vertexNormals } from "./geometry.js";
-import { MeshView, type ViewHit, type ViewListener } from "./mesh_view.js";
+import { MeshView, type Sighting, type ViewHit, type ViewListener } from "./mesh_view.js";
 import { glide, sameEdges } from "./morph.js";
 import { QuadLines } from "./quad_lines.js";
 import { SurfacePicker } from "./surface_picker.js";
+
+/** Beyond the numbers that dots may carry. */
+const cursorId = 1034;
 
 /** The target, with landmarks, paths and patches on it. */
 export class TargetView extends MeshView {
@@ -20,17 +33,34 @@ export class TargetView extends MeshView {
     /** Where a landmark would go. */
     private readonly ghost = new Dots(-0.15, 0.7);
     private readonly lines = new QuadLines();
+    /** A point that a map connects with another one: no landmark, and without a number. */
+    private readonly cursor = new Dots(-0.15);
+    private readonly carried = carriedMaterial();
+    /** Told of what the pointer is over, or has been pressed on, besides the listener. */
+    onSight: ((sighting: Sighting | null) => void) | null = null;
     private endGlide = () => {};
 
     constructor(host: HTMLElement, label: string, listener: ViewListener) {
-        super(host, label, -0.15, listener);
-        this.viewer.content.add(this.ghost.points, this.lines.group);
+        super(host, label, -0.15, {
+            ...listener,
+            hover: (sighting) => {
+                listener.hover(sighting);
+                this.onSight?.(sighting);
+            },
+            click: (sighting) => {
+                listener.click(sighting);
+                this.onSight?.(sighting);
+            },
+        });
+        this.viewer.content.add(this.ghost.points, this.lines.group, this.cursor.points);
+        this.cursor.highlight(cursorId);
     }
 
     override applyTheme(): void {
         super.applyTheme();
         this.ghost.setTheme(currentTheme());
         this.lines.setTheme(currentTheme());
+        this.cursor.setTheme(currentTheme());
     }
 
     setTarget(target: TargetInfo | null): void {
@@ -56,6 +86,7 @@ export class TargetView extends MeshView {
         const patched = target !== null && refined !== null && layout !== null;
         this.refined = patched ? refined : null;
         this.patches = null;
+        this.mesh.material = material;
         this.lines.setMesh(quads, layout?.edgeCount ?? 0);
         const drawn = quads ? trianglesOf(quads) : patched ? refined : null;
         if (drawn && layout) {
@@ -68,6 +99,33 @@ export class TargetView extends MeshView {
         material.vertexColors = patched;
         material.side = material.clippingPlanes ? DoubleSide : this.side();
         material.needsUpdate = true;
+        this.viewer.requestRender();
+    }
+
+    /** Shows what a map carries, in place of patches: on the target of one side of the map. */
+    setCarried(map: SurfaceMap, side: Side, colors: Float32Array, texture: Texture): void {
+        if (!this.target) return;
+        this.lines.setMesh(null, 0);
+        this.setSurfaceGeometry(carriedSurface(map, side, this.target, this.normals, colors));
+        this.carried.setTexture(texture);
+        this.mesh.material = this.carried.material;
+        this.clipCarried();
+        this.viewer.requestRender();
+    }
+
+    /** Shows a point of the target; null for none. */
+    setCursor(point: FacePoint | null): void {
+        const { target, normals } = this;
+        const dots: Dot[] = [];
+        if (target && point)
+            dots.push({
+                id: cursorId,
+                place: placeOf(target, point),
+                normal: placeOf({ positions: normals, corners: target.corners }, point),
+                hollow: true,
+            });
+        // As small as dots get.
+        this.cursor.setDots(dots, this.viewer.radius, Infinity);
         this.viewer.requestRender();
     }
 
@@ -115,6 +173,12 @@ export class TargetView extends MeshView {
     override setClip(share: number): void {
         super.setClip(share);
         this.lines.setClip(this.material.clippingPlanes);
+        this.clipCarried();
+    }
+
+    override setWireframe(on: boolean): void {
+        super.setWireframe(on);
+        this.carried.material.wireframe = on;
     }
 
     /** Brings a target vertex into the middle of the view. */
@@ -130,12 +194,22 @@ export class TargetView extends MeshView {
         return this.sight(clientWidth / 2, clientHeight / 2).vertex;
     }
 
-    /** The free neighbour of a vertex in a direction on the screen, y upwards. */
-    neighbour(vertex: number, x: number, y: number): number | null {
+    /** The neighbour of a vertex in a direction on the screen, y upwards; without a landmark. */
+    neighbour(vertex: number, x: number, y: number, isFree = true): number | null {
         const direction = this.viewer.onScreen(x, y);
-        return (
-            this.picker?.neighbourTowards(vertex, direction, (v) => this.isFree(v, null)) ?? null
-        );
+        const allowed = (v: number) => !isFree || this.isFree(v, null);
+        return this.picker?.neighbourTowards(vertex, direction, allowed) ?? null;
+    }
+
+    /** A point of a face in its barycentric coordinates. */
+    pointAt({ face, point }: Pick<ViewHit, "face" | "point">): FacePoint | null {
+        if (!this.target) return null;
+        const { positions, corners } = this.target;
+        const [a, b, c] = [0, 1, 2].map((k) =>
+            new Vector3().fromArray(positions, 3 * corners[3 * face + k]!),
+        ) as [Vector3, Vector3, Vector3];
+        const weights = Triangle.getBarycoord(point, a, b, c, new Vector3());
+        return weights && { face, weights: weights.toArray() };
     }
 
     protected override surfaceAt(x: number, y: number): ViewHit | null {
@@ -155,6 +229,13 @@ export class TargetView extends MeshView {
     protected override side(): 0 | 2 {
         // A mesh with a boundary is seen from both sides.
         return (this.target?.boundaryLoopCount ?? 0) > 0 ? DoubleSide : FrontSide;
+    }
+
+    private clipCarried(): void {
+        const { material } = this.carried;
+        material.clippingPlanes = this.material.clippingPlanes;
+        material.side = this.material.side;
+        material.needsUpdate = true;
     }
 
     private isFree(vertex: number, except: number | null): boolean {

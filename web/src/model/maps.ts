@@ -1,0 +1,68 @@
+// The map from the target to a second one, as the page shows it.
+import type {
+    EmbedResult,
+    LandmarkInput,
+    MeshInput,
+    SurfaceMap,
+    TargetInfo,
+} from "layout-embedding";
+import type { Correspondence, FacePoint, Side } from "./correspondence.js";
+
+/** A second target for the layout. */
+export interface OtherTarget {
+    readonly title: string;
+    /** The gallery's shape that it is; null for a file. */
+    readonly shape: string | null;
+    readonly open: () => Promise<{
+        readonly target: MeshInput;
+        /** Null: by proximity. */
+        readonly landmarks: LandmarkInput | null;
+    }>;
+}
+
+/** What the map carries from the first target to the second. */
+export type Texture = "grid" | "checker" | "patches" | "distortion";
+
+/** A point on both targets. */
+export interface MapCursor {
+    readonly a: FacePoint | null;
+    readonly b: FacePoint | null;
+    /** Where it was put, and the vertex that it is on there, if any. */
+    readonly from: Side;
+    readonly vertex: number | null;
+}
+
+export interface MapState {
+    readonly other: OtherTarget | null;
+    /** The second target as it was read, and its landmarks. */
+    readonly target: TargetInfo | null;
+    readonly landmarks: Uint32Array | null;
+    readonly map: SurfaceMap | null;
+    readonly correspondence: Correspondence | null;
+    /** The result whose embedding the map begins at. */
+    readonly of: EmbedResult | null;
+    readonly isOptimised: boolean;
+    /** What is going on, in words; null for nothing. */
+    readonly phase: string | null;
+    /** Share of it that is done; null while unknown. */
+    readonly progress: number | null;
+    /** Why there is no map. */
+    readonly error: string | null;
+    readonly texture: Texture;
+    readonly cursor: MapCursor | null;
+}
+
+export const noMap: MapState = {
+    other: null,
+    target: null,
+    landmarks: null,
+    map: null,
+    correspondence: null,
+    of: null,
+    isOptimised: false,
+    phase: null,
+    progress: null,
+    error: null,
+    texture: "grid",
+    cursor: null,
+};
