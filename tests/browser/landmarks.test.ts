@@ -3,6 +3,7 @@
 import { expect, test } from "vitest";
 import {
     choose,
+    colorsOf,
     downloaded,
     drop,
     findInTarget,
@@ -118,6 +119,13 @@ test("an_embedding_follows_a_dragged_landmark_and_is_proved_when_the_hand_rests"
     // The embedding that there was follows, without a search of its own.
     expect(await page.textContent("#lower-bound")).toBe("–");
     expect(await vertexOf(id)).not.toBe(vertex);
+    // The patches from before have faded, but are there.
+    const faded = await colorsOf(page, "#target-view canvas");
+    await page.keyboard.press("p");
+    await frames(page);
+    const bare = await colorsOf(page, "#target-view canvas");
+    await page.keyboard.press("p");
+    expect(faded.size).toBeGreaterThan(bare.size);
     await page.mouse.up();
     await untilSolved(page);
     expect(await page.textContent("#meaning")).toMatch(/^Measured along/);

@@ -31,6 +31,7 @@ import {
     type Landmarks,
 } from "./landmarks.js";
 import { Mapping } from "./mapping.js";
+import { mends } from "./mending.js";
 import { landmarksOf, lineOf, meshPlace } from "./places.js";
 import type { Store } from "./store.js";
 import type { Activity, AppState, Display, Item, Origin, Problem, Tab } from "./state.js";
@@ -550,7 +551,9 @@ export class Actions {
             async (error) => {
                 this.report(error, {
                     about: role,
-                    remedy: this.repairRemedy(role, source, error),
+                    remedy:
+                        this.repairRemedy(role, source, error) ??
+                        this.mendRemedy(role, source, error),
                     line: source instanceof File ? await lineOf(error, source) : null,
                     place: await meshPlace(error, role, nameOf(source), async () =>
                         this.engine.inspect(role, await inputOf(source), options),
@@ -594,6 +597,23 @@ export class Actions {
                 void this.openAs(role, source);
             },
         };
+    }
+
+    /** What changes the mesh more than a repair does, and so has to be asked for. */
+    private mendRemedy(role: Role, source: Source, error: unknown): Problem["remedy"] {
+        const code = error instanceof Error && "code" in error ? String(error.code) : "";
+        const help = mends[code];
+        if (!help) return null;
+        const apply = async () => {
+            const options = { repair: this.store.get().repair };
+            const mended = await this.attempt("Mending the mesh", async () =>
+                help.mend(await this.engine.inspect(role, await inputOf(source), options)),
+            );
+            if (!mended) return;
+            await this.openAs(role, { ...mended.mesh, name: nameOf(source) });
+            this.notice(mended.note);
+        };
+        return { label: help.label, apply: () => void apply() };
     }
 
     /** Proximity where layout and target allow it; used after loading. */

@@ -92,6 +92,10 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
         if (!shownMap(store.get())) targetView.setSurface(...surfaceOf(store.get()));
     });
     store.watch(
+        (state) => [state.follow !== null],
+        (follows) => targetView.setStale(follows),
+    );
+    store.watch(
         (state) => [state.target, state.landmarks],
         (_, landmarks) => targetView.setLandmarks(landmarks),
     );
@@ -285,6 +289,10 @@ const shownResult = ({
 }: AppState): EmbedResult | null =>
     step === null && !candidates?.shown && !follow ? (result ?? preview) : null;
 
+/** Its patches; those from before, while only the paths follow a landmark. */
+const shownPatches = (state: AppState): RefinedMesh | null =>
+    shownResult({ ...state, follow: null })?.refined ?? null;
+
 /** Whether one is the other in another shape: the same search made both. */
 const isReshaped = (before: EmbedResult | null, now: EmbedResult | null): boolean =>
     before?.refined !== now?.refined &&
@@ -297,7 +305,7 @@ const wantsStillness = () => matchMedia("(prefers-reduced-motion: reduce)").matc
 const surfaceInputs = (state: AppState) =>
     [
         state.target,
-        state.display.patchesShown ? (shownResult(state)?.refined ?? null) : null,
+        state.display.patchesShown ? shownPatches(state) : null,
         state.layout,
         shownQuads(state),
         // Patches come back when the map goes.

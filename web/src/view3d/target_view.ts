@@ -1,4 +1,4 @@
-import { DoubleSide, FrontSide, Triangle, Vector3 } from "three";
+import { Color, DoubleSide, FrontSide, Triangle, Vector3 } from "three";
 import type {
     LayoutInfo,
     Polylines,
@@ -36,6 +36,9 @@ export class TargetView extends MeshView {
     /** A point that a map connects with another one: no landmark, and without a number. */
     private readonly cursor = new Dots(-0.15);
     private readonly carried = carriedMaterial();
+    /** How far patches have faded into the bare target's colour. */
+    private readonly fade = { value: 0 };
+    private readonly bare = { value: new Color() };
     /** Told of what the pointer is over, or has been pressed on, besides the listener. */
     onSight: ((sighting: Sighting | null) => void) | null = null;
     private endGlide = () => {};
@@ -54,6 +57,18 @@ export class TargetView extends MeshView {
         });
         this.viewer.content.add(this.ghost.points, this.lines.group, this.cursor.points);
         this.cursor.highlight(cursorId);
+        this.material.onBeforeCompile = (shader) => {
+            Object.assign(shader.uniforms, { fade: this.fade, bare: this.bare });
+            shader.fragmentShader = shader.fragmentShader
+                .replace(
+                    "#include <common>",
+                    "#include <common>\nuniform float fade;\nuniform vec3 bare;",
+                )
+                .replace(
+                    "#include <color_fragment>",
+                    "#include <color_fragment>\ndiffuseColor.rgb = mix(diffuseColor.rgb, bare, fade);",
+                );
+        };
     }
 
     override applyTheme(): void {
@@ -61,6 +76,7 @@ export class TargetView extends MeshView {
         this.ghost.setTheme(currentTheme());
         this.lines.setTheme(currentTheme());
         this.cursor.setTheme(currentTheme());
+        this.bare.value.set(currentTheme().clay);
     }
 
     setTarget(target: TargetInfo | null): void {
@@ -102,6 +118,12 @@ export class TargetView extends MeshView {
         this.viewer.requestRender();
     }
 
+    /** Whether the patches are those of an earlier embedding. */
+    setStale(stale: boolean): void {
+        this.fade.value = stale ? 0.65 : 0;
+        this.viewer.requestRender();
+    }
+
     /** Shows what a map carries, in place of patches: on the target of one side of the map. */
     setCarried(map: SurfaceMap, side: Side, colors: Float32Array, texture: Texture): void {
         if (!this.target) return;
@@ -124,8 +146,8 @@ export class TargetView extends MeshView {
                 normal: placeOf({ positions: normals, corners: target.corners }, point),
                 hollow: true,
             });
-        // As small as dots get.
-        this.cursor.setDots(dots, this.viewer.radius, Infinity);
+        // Somewhat smaller than landmarks.
+        this.cursor.setDots(dots, this.viewer.radius, 50);
         this.viewer.requestRender();
     }
 
