@@ -39,7 +39,7 @@ ExactSolver::ExactSolver(const EmbeddingProblem& problem, const PathGraph& graph
     : options_(options),
       graph_(graph),
       space_(problem, graph, field_bytes, true, options.constraints),
-      start_(problem, space_, kLocalSearch, options.gap),
+      start_(problem, space_, options.local_search ? kLocalSearch : 0, options.gap),
       selection_(*problem.layout, space_.pool, linear_vertices(space_.strands)),
       enumeration_(space_.strands, space_.fields),
       rest_bounds_(problem.layout->edge_count()),
@@ -160,8 +160,8 @@ Solver::Outcome ExactSolver::select(WorkBudget& budget)
         stage_ = Stage::finished;
         return Outcome::finished;
     }
-    if (is_between_ && start_.local_search_work() * kLocalSearchShare < work_ &&
-        start_.resume(kLocalSearch)) {
+    if (options_.local_search && is_between_ &&
+        start_.local_search_work() * kLocalSearchShare < work_ && start_.resume(kLocalSearch)) {
         stage_ = Stage::improve;
         return Outcome::finished;
     }
@@ -220,7 +220,8 @@ void ExactSolver::look_into(bool is_optimal)
         has_explored_ = false;
         // Without an incumbent nothing says how far to explore: first of all, an embedding. Where
         // holes are in the way it takes classes that lead around them.
-        stage_ = space_.incumbent.exists() || has_holes_ ? Stage::explore : Stage::examine;
+        stage_ = (options_.exploration && space_.incumbent.exists()) || has_holes_ ? Stage::explore
+                                                                                   : Stage::examine;
     }
 }
 

@@ -16,6 +16,11 @@ struct ExactSolverOptions {
     double gap = 0;
     /// What is asked of single edges. Bounds are those of the embeddings that comply.
     std::vector<ClassConstraint> constraints;
+    /// Parts that can be switched off to see what they contribute; the optimum stays the same.
+    /// Improve the start by insertion that looks ahead and local search on insertion orders.
+    bool local_search = true;
+    /// Enumerate classes of edges whatever the others do, before it is done beside others.
+    bool exploration = true;
 };
 
 /// The best of all embeddings (design, Sec. 3): after a start by insertion, the cheapest selection

@@ -6,24 +6,19 @@
 // ALGORITHM or a GAP to be reached they are the library's defaults. Prints one JSON object, as
 // embed_wasm.mjs does.
 
-#include <cinttypes>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/embed_job.hh"
-#include "layout/landmark_reader.hh"
-#include "layout/proximity.hh"
-#include "mesh/mesh_reader.hh"
-#include "mesh/validation.hh"
+#include "json_object.hh"
+#include "problem_files.hh"
 
 namespace layout_embedding {
 namespace {
@@ -43,11 +38,6 @@ struct Arguments {
     std::optional<Algorithm> algorithm;
     std::optional<double> gap;
 };
-
-double cpu_seconds()
-{
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 // Memory as Linux counts it for this process. Not getrusage(), whose peak begins with that of the
 // process which started this one.
@@ -76,103 +66,6 @@ void forget_peak()
 {
     std::ofstream("/proc/self/clear_refs") << "5";
 }
-
-Result<std::string> bytes_of(const char* path)
-{
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        return make_error(ErrorCode::invalidOption, std::string(path) + " cannot be read");
-    }
-    return std::string{std::istreambuf_iterator<char>(file), {}};
-}
-
-Result<PolygonMesh> read_file(const char* path)
-{
-    const auto bytes = bytes_of(path);
-    if (!bytes) {
-        return bytes.error();
-    }
-    return read_mesh(*bytes, format_of_file_name(path), path);
-}
-
-Result<std::vector<Index>> landmarks_of(const Arguments& arguments, const Layout& layout,
-                                        const PolygonMesh& layout_mesh, const TriangleMesh& target)
-{
-    if (std::string(arguments.landmarks) == "proximity") {
-        return landmarks_by_proximity(layout, layout_mesh.positions, target);
-    }
-    const auto bytes = bytes_of(arguments.landmarks);
-    if (!bytes) {
-        return bytes.error();
-    }
-    auto landmarks = read_landmarks(*bytes, arguments.landmarks);
-    if (!landmarks) {
-        return landmarks.error();
-    }
-    return std::move(landmarks->vertices);
-}
-
-Result<EmbeddingProblem> load(const Arguments& arguments)
-{
-    auto layout_mesh = read_file(arguments.layout);
-    if (!layout_mesh) {
-        return layout_mesh.error();
-    }
-    auto target_mesh = read_file(arguments.target);
-    if (!target_mesh) {
-        return target_mesh.error();
-    }
-    auto layout = Layout::from_polygons(*layout_mesh, arguments.layout);
-    if (!layout) {
-        return layout.error();
-    }
-    if (Status usable = check_surface(*target_mesh, SurfaceKind::target, arguments.target);
-        !usable) {
-        return usable.error();
-    }
-    auto target = std::make_shared<TriangleMesh>(*target_mesh);
-    auto landmarks = landmarks_of(arguments, *layout, *layout_mesh, *target);
-    if (!landmarks) {
-        return landmarks.error();
-    }
-    return make_problem(std::make_shared<Layout>(std::move(*layout)), std::move(target),
-                        std::move(*landmarks));
-}
-
-/// A JSON object in the making.
-class Object {
-public:
-    Object& put(const char* name, const std::string& json)
-    {
-        text_ += text_.empty() ? "\"" : ",\"";
-        text_ += name;
-        text_ += "\":";
-        text_ += json;
-        return *this;
-    }
-    /// null for infinity.
-    Object& put(const char* name, double number)
-    {
-        char digits[40];
-        std::snprintf(digits, sizeof digits, "%.17g", number);
-        return put(name, std::isfinite(number) ? std::string(digits) : "null");
-    }
-    Object& put(const char* name, std::uint64_t number)
-    {
-        return put(name, std::to_string(number));
-    }
-    Object& put_text(const char* name, const std::string& text)
-    {
-        std::string quoted = "\"";
-        quoted += text;
-        quoted += '"';
-        return put(name, quoted);
-    }
-    std::string json() const { return "{" + text_ + "}"; }
-
-private:
-    std::string text_;
-};
 
 /// What happened when, in CPU seconds since the job began.
 struct Record {
@@ -210,7 +103,7 @@ Record run(EmbedJob& job)
             }
             if (event.kind == EventKind::incumbent || event.kind == EventKind::bound) {
                 record.history += record.history.empty() ? "" : ",";
-                record.history += Object()
+                record.history += JsonObject()
                                       .put("cpu", now)
                                       .put("work", event.work)
                                       .put("cost", event.cost)
@@ -224,7 +117,7 @@ Record run(EmbedJob& job)
 
 std::string counters_json(const EmbedCounters& counters)
 {
-    return Object()
+    return JsonObject()
         .put("work", counters.work)
         .put("searches", counters.searches)
         .put("expansions", counters.expansions)
@@ -257,7 +150,7 @@ std::string paths_json(const EmbedResult& result)
             }
         }
     }
-    return Object()
+    return JsonObject()
         .put("length", length)
         .put("evenLength", even)
         .put("smallestAngle", result.quality.smallest_angle)
@@ -266,7 +159,7 @@ std::string paths_json(const EmbedResult& result)
 
 int run(const Arguments& arguments)
 {
-    auto problem = load(arguments);
+    auto problem = load_problem(arguments.layout, arguments.target, arguments.landmarks);
     if (!problem) {
         std::fprintf(stderr, "%s\n", problem.error().message.c_str());
         return 2;
@@ -278,7 +171,7 @@ int run(const Arguments& arguments)
     options.algorithm = arguments.algorithm.value_or(options.algorithm);
     options.gap = arguments.gap.value_or(options.gap);
     const TriangleMesh& target = *problem->target;
-    const std::string size = Object()
+    const std::string size = JsonObject()
                                  .put("vertices", std::uint64_t{target.vertex_count()})
                                  .put("triangles", std::uint64_t{target.face_count()})
                                  .put("nodes", std::uint64_t{target.vertex_count()} +
@@ -294,7 +187,7 @@ int run(const Arguments& arguments)
     if (job.error().code != ErrorCode::none) {
         std::fprintf(stderr, "%s\n", job.error().message.c_str());
     }
-    Object output;
+    JsonObject output;
     if (result.exact_cost != kInfiniteLength) {
         output.put_text("exactCost", std::to_string(result.exact_cost));
     }
@@ -307,7 +200,7 @@ int run(const Arguments& arguments)
         .put_text("exactLowerBound", std::to_string(result.exact_lower_bound))
         .put("size", size)
         .put("counters", counters_json(result.counters))
-        .put("cpu", Object()
+        .put("cpu", JsonObject()
                         .put("load", load_cpu)
                         .put("first", record.first)
                         .put("best", record.best)
@@ -317,7 +210,7 @@ int run(const Arguments& arguments)
                         .put("total", total)
                         .json())
         .put("paths", paths_json(result))
-        .put("memory", Object()
+        .put("memory", JsonObject()
                            .put("search", record.search_megabytes)
                            .put("peak", std::max(load_peak, peak_megabytes()))
                            .json())

@@ -414,5 +414,34 @@ TEST(ExactSolver, proves_embeddings_on_surfaces_of_higher_genus)
     EXPECT_EQ(count, 4);
 }
 
+TEST(ExactSolver, no_part_changes_the_optimum)
+{
+    // Without exploration some instances take very long.
+    constexpr std::uint64_t kMaxWork = 1'000'000;
+    int finished = 0;
+    std::uint64_t work[2] = {};
+    for (const Instance& instance : small_instances(431, 24)) {
+        SCOPED_TRACE(instance.name);
+        const ExactRun whole(instance.problem, {});
+        const Length optimum = whole.solver.incumbent_cost();
+        ExactSolverOptions options;
+        options.local_search = false;
+        const ExactRun without_local_search(instance.problem, options);
+        EXPECT_EQ(without_local_search.solver.incumbent_cost(), optimum);
+        options = {};
+        options.exploration = false;
+        const ExactRun without_exploration(instance.problem, options, kMaxWork / 100, kMaxWork);
+        EXPECT_LE(without_exploration.solver.lower_bound(), optimum);
+        if (without_exploration.has_finished) {
+            ++finished;
+            EXPECT_EQ(without_exploration.solver.incumbent_cost(), optimum);
+        }
+        work[0] += whole.work;
+        work[1] += without_local_search.work;
+    }
+    EXPECT_GT(finished, 5);
+    EXPECT_NE(work[1], work[0]);
+}
+
 }  // namespace
 }  // namespace layout_embedding

@@ -19,10 +19,10 @@ await main(async () => {
         writeReport(folder, JSON.parse(readFileSync(results, "utf8")));
         return;
     }
-    await ensureSystemPackages("wasm", "native");
-    await installPackages();
-    await buildPackage();
-    await buildPreset("release", { targets: ["generate_shapes"] });
+    const chosen = experiments.filter(
+        ({ name }) => options.only.length === 0 || options.only.includes(name),
+    );
+    await build(chosen, options.quick);
 
     mkdirSync(path.join(folder, "pictures"), { recursive: true });
     const began = performance.now();
@@ -33,10 +33,7 @@ await main(async () => {
         machine: machine(),
         experiments: {},
     };
-    for (const { name, experiment } of experiments) {
-        if (options.only.length > 0 && !options.only.includes(name)) {
-            continue;
-        }
+    for (const { name, experiment } of chosen) {
         const start = performance.now();
         const { cpuSeconds } = pool;
         const data = await experiment.run({ pool, quick: options.quick, done: run.experiments });
@@ -52,6 +49,17 @@ await main(async () => {
     writeFileSync(results, `${JSON.stringify(run, null, 1)}\n`);
     say(`written to ${path.relative(process.cwd(), writeReport(folder, run))}`);
 });
+
+/** The package, and the native programs that the experiments run. */
+async function build(chosen, quick) {
+    const targets = new Set(chosen.flatMap(({ experiment }) => experiment.tools?.(quick) ?? []));
+    await ensureSystemPackages("wasm", ...(targets.size > 0 ? ["native"] : []));
+    await installPackages();
+    await buildPackage();
+    if (targets.size > 0) {
+        await buildPreset("release", { targets: [...targets] });
+    }
+}
 
 function readOptions() {
     const flag = { type: "boolean", default: false };

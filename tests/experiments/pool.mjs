@@ -7,6 +7,7 @@ export class Pool {
     /** CPU seconds of all tasks so far, and embeddings made by them. */
     cpuSeconds = 0;
     embeddings = 0;
+    finished = 0;
 
     /** `folder`: where tasks put their pictures. */
     constructor(size, folder) {
@@ -53,6 +54,7 @@ export class Pool {
             } else {
                 this.cpuSeconds += answer.cpuSeconds;
                 this.embeddings += answer.embeddings;
+                ++this.finished;
                 resolve(answer.result);
             }
             this.startNext();

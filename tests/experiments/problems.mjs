@@ -4,16 +4,20 @@ import { readFileSync } from "node:fs";
 import path from "node:path";
 import { hashOf, once, output, root, run } from "../../.dev/run.mjs";
 import {
+    convexHull,
     displaced,
     nearestVertices,
     randomDirections,
     sphere as sphereMesh,
 } from "../bench/generate.mjs";
+import { normalized } from "../bench/vectors.mjs";
 
 const generator = path.join(root, "build/release/core/shapes/generate_shapes");
 
 /** The size of the largest members that are used. */
-const largest = 16_000;
+const largest = 10_000;
+/** How many members of a class are used at most. */
+const most = 6;
 
 const asFile = (file) => ({ bytes: readFileSync(file), name: path.basename(file) });
 
@@ -30,7 +34,7 @@ export function shippedShapes() {
     return readIndex(path.join(root, "web/public/shapes"));
 }
 
-/** All members of all classes up to 16 000 vertices, made unless they are there already. */
+/** Six members of each class, of 2 to 10 thousand vertices, made unless they are there already. */
 export async function generatedShapes() {
     const folder = "build/experiments-shapes";
     const listed = output(generator, ["--list"]).matchAll(
@@ -40,7 +44,7 @@ export async function generatedShapes() {
     for (const [, index, , vertices, name] of listed) {
         if (name !== undefined) {
             classes.push({ name, members: [] });
-        } else if (Number(vertices) <= largest) {
+        } else if (Number(vertices) <= largest && classes.at(-1).members.length < most) {
             classes.at(-1).members.push(index);
         }
     }
@@ -88,24 +92,47 @@ export const cube = {
     ],
 };
 
-/** A layout on a sphere of 20 n^2 triangles, its landmarks at random. */
-export function randomlyOnSphere(layout, n, seed) {
-    const target = sphereMesh(n);
-    const directions = randomDirections(layout.positions.length, seed);
-    return {
-        layout: arraysOf(layout),
-        target: arraysOf(target),
-        landmarks: nearestVertices(target.positions, directions),
-    };
+/** The triangular prism. */
+export const prism = {
+    positions: [-0.5, 0.5].flatMap((z) =>
+        [0, 1, 2].map((i) => {
+            const x = [1, -0.5, -0.5][i];
+            const y = ([0, 1, -1][i] * Math.sqrt(3)) / 2;
+            return normalized([x, y, z]);
+        }),
+    ),
+    faces: [
+        [2, 1, 0],
+        [3, 4, 5],
+        [0, 1, 4, 3],
+        [1, 2, 5, 4],
+        [2, 0, 3, 5],
+    ],
+};
+
+/** The convex hull of random points on the sphere. */
+export function randomHull(points, seed) {
+    const positions = randomDirections(points, seed);
+    return { positions, faces: convexHull(positions) };
 }
 
-/** The same with landmarks displaced from the layout's own vertices, which lie on the sphere. */
-export function displacedOnSphere(layout, n, distance, seed) {
+/** A layout on a sphere of 20 n^2 triangles with a landmark per direction; meshes as lists. */
+export function sphereProblemAt(layout, n, directions) {
     const target = sphereMesh(n);
-    const directions = displaced(layout.positions, distance, seed);
-    return {
-        layout: arraysOf(layout),
-        target: arraysOf(target),
-        landmarks: nearestVertices(target.positions, directions),
-    };
+    return { layout, target, landmarks: nearestVertices(target.positions, directions) };
+}
+
+/** With random landmarks. */
+export function sphereProblem(layout, n, seed) {
+    return sphereProblemAt(layout, n, randomDirections(layout.positions.length, seed));
+}
+
+/** With landmarks displaced from the layout's own vertices, which lie on the sphere. */
+export function displacedProblem(layout, n, distance, seed) {
+    return sphereProblemAt(layout, n, displaced(layout.positions, distance, seed));
+}
+
+/** Meshes as lists to what the package takes. */
+export function problemOf({ layout, target, landmarks }) {
+    return { layout: arraysOf(layout), target: arraysOf(target), landmarks };
 }

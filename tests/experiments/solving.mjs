@@ -73,4 +73,10 @@ export async function solveAndRecord(session, options) {
     return { result, record };
 }
 
+/** A record without its history, where only the end matters. */
+export function withoutHistory(record) {
+    const { history, ...rest } = record;
+    return { ...rest, events: history.length };
+}
+
 const finite = (number) => (Number.isFinite(number) ? number : null);

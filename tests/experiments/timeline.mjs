@@ -1,5 +1,5 @@
 // Fig. 7: both bounds over time, of branch and bound and of the exact method.
-import { cube, randomlyOnSphere } from "./problems.mjs";
+import { cube, problemOf, sphereProblem } from "./problems.mjs";
 import { boundsOverTime, secondsToGap } from "./histories.mjs";
 import { colours, plot } from "./report/plot.mjs";
 import { figure, findings, number, percent, seconds, table } from "./report/html.mjs";
@@ -22,7 +22,7 @@ export async function run({ pool, quick }) {
 
 export const tasks = {
     async solve({ seed, n, algorithm, limit }) {
-        const session = await openSession(randomlyOnSphere(cube, n, seed));
+        const session = await openSession(problemOf(sphereProblem(cube, n, seed)));
         // Without a tolerance, so that both run until they have proved the optimum.
         const { record } = await solveAndRecord(session, { algorithm, gap: 0, workLimit: limit });
         return { seed, ...record };

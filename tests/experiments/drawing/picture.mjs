@@ -97,3 +97,58 @@ export function embeddingPicture(name, result, { view = frontView, highlight = [
     }
     return write(name, raster);
 }
+
+/**
+ * A partial embedding: the target grey, the given layout edges of a complete one, the last of them
+ * red.
+ */
+export function insertionPicture(name, result, edges, { view = frontView } = {}) {
+    const { refined } = result;
+    const raster = new Raster(cameraFor(refined.positions, { ...size, ...view }));
+    raster.triangles(refined.positions, refined.corners, () => [214, 218, 226]);
+    edges.forEach((edge, i) => {
+        const isLast = i === edges.length - 1;
+        const points = chainPoints(refined, result.edges[edge].chain);
+        raster.line(points, isLast ? red : dark, isLast ? 3 : 2);
+    });
+    for (const vertex of result.landmarks) {
+        raster.dot(refined.positions.subarray(3 * vertex, 3 * vertex + 3), dark, 6);
+    }
+    return write(name, raster);
+}
+
+/** A quad mesh with its base complex. */
+export function quadPicture(name, { positions, quads, faces, chains }, { view = frontView } = {}) {
+    const raster = new Raster(cameraFor(positions, { ...size, ...view }));
+    const corners = new Uint32Array((quads.length / 4) * 6);
+    for (let q = 0; 4 * q < quads.length; ++q) {
+        const [a, b, c, d] = quads.subarray(4 * q, 4 * q + 4);
+        corners.set([a, b, c, a, c, d], 6 * q);
+    }
+    raster.triangles(positions, corners, (t) => pastel(faces[t >> 1]));
+    const at = (v) => Array.from(positions.subarray(3 * v, 3 * v + 3));
+    for (let q = 0; q < quads.length; q += 4) {
+        const ring = [0, 1, 2, 3, 0].map((k) => quads[q + k]);
+        raster.line(ring.flatMap(at), [120, 120, 130], 0.5);
+    }
+    for (const chain of chains) {
+        raster.line(Array.from(chain).flatMap(at), dark, 1.8);
+    }
+    return write(name, raster);
+}
+
+/** A surface coloured point by point: see Raster.triangles(). `lines` are polylines on it. */
+export function texturePicture(
+    name,
+    positions,
+    corners,
+    colourOf,
+    { view = frontView, lines = [] },
+) {
+    const raster = new Raster(cameraFor(positions, { ...size, ...view }));
+    raster.triangles(positions, corners, colourOf);
+    for (const line of lines) {
+        raster.line(line, dark, 1.4);
+    }
+    return write(name, raster);
+}

@@ -24,7 +24,7 @@ export function claimsTable(results) {
         .sort((a, b) => a.section.localeCompare(b.section, "en", { numeric: true }));
     const body = rows.map(
         ({ section, paper, rule, found, verdict, name }) =>
-            `<tr><td>${escape(section)}</td><td>${paper}</td><td>${rule}</td><td>${found} <a href="#${name}" aria-label="the experiment">↑</a></td><td class="verdict ${verdict}">${verdicts[verdict]}</td></tr>`,
+            `<tr><td>${escape(section)}</td><td>${paper}</td><td>${rule}</td><td>${verdict === "open" ? "" : `${found} <a href="#${name}" aria-label="the experiment">↑</a>`}</td><td class="verdict ${verdict}">${verdicts[verdict]}</td></tr>`,
     );
     return `<p>Verdicts follow from the run’s numbers by the rule in the third column. <i>Confirmed</i>: as the paper has it. <i>Passed</i>: the rule holds, with a better value than the paper’s. <i>Not reached</i>: the rule fails.</p><div class="wide"><table><thead><tr><th>Section</th><th>The paper’s claim</th><th>Rule</th><th>This run</th><th>Verdict</th></tr></thead><tbody>${body.join("")}</tbody></table></div>`;
 }

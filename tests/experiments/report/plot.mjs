@@ -68,7 +68,9 @@ function scaleFor({ log = false, from, to }, values, low, high) {
         const share = (f(Math.max(value, log ? min : -Infinity)) - f(min)) / (f(max) - f(min));
         return Number((low + share * (high - low)).toFixed(1));
     };
-    return Object.assign(scale, { ticks: log ? logTicks(min, max) : linearTicks(min, max) });
+    return Object.assign(scale, {
+        ticks: log && max > 4 * min ? logTicks(min, max) : linearTicks(min, max),
+    });
 }
 
 function linearTicks(min, max) {
