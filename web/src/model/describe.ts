@@ -15,6 +15,12 @@ const counts = new Intl.NumberFormat("en");
 export const formatLength = (value: number): string =>
     Number.isFinite(value) ? numbers.format(value) : "–";
 
+const figures = new Intl.NumberFormat("en", { maximumSignificantDigits: 4 });
+
+/** A figure that nobody needs exactly. */
+export const formatFigure = (value: number): string =>
+    Number.isFinite(value) ? figures.format(value) : "–";
+
 export const formatWhole = (value: number): string => counts.format(value);
 
 export const formatCount = (value: number, noun: string, plural = `${noun}s`): string =>

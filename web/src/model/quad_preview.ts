@@ -1,4 +1,4 @@
-import type { EmbedResult, QuadMesh, QuadOptions } from "layout-embedding";
+import type { EmbeddingSession, EmbedResult, QuadMesh, QuadOptions } from "layout-embedding";
 import { sentencesOf } from "./describe.js";
 import { Latest } from "./latest.js";
 import type { QuadState } from "./quads.js";
@@ -17,6 +17,8 @@ const calm = 350;
 export class QuadPreview {
     private readonly latest = new Latest();
     private relaxing = false;
+    /** Until the settings have rested. */
+    private timer: ReturnType<typeof setTimeout> | undefined;
 
     constructor(
         private readonly store: Store<AppState>,
@@ -33,7 +35,7 @@ export class QuadPreview {
                 const { quadMesh } = store.get();
                 if (quadMesh.of !== result && quadMesh.mesh)
                     this.update({ mesh: null, of: null, isRelaxed: false });
-                if (shown && quadMesh.of !== result) this.refresh();
+                if (shown && (quadMesh.of !== result || !quadMesh.isRelaxed)) this.refresh();
                 else if (!result) this.stop();
             },
         );
@@ -54,46 +56,63 @@ export class QuadPreview {
 
     /** Ends a relaxation; the mesh stays as it is. */
     stop(): void {
+        this.interrupt();
         this.latest.drop();
-        if (this.relaxing) this.workshop.stop();
         this.update({ phase: null });
     }
 
     private refresh(): void {
-        if (this.relaxing) this.workshop.stop();
-        this.latest.do((isWanted) => this.make(isWanted));
+        this.interrupt();
+        this.latest.do((isWanted) =>
+            this.attempt(isWanted, "Making quads", async (result, session, options) => {
+                const rough = await session.quads({ ...options, relaxation: 0 });
+                // Shown also where a newer one is wanted: the slider is still moving.
+                if (this.store.get().result !== result) return;
+                this.show(rough, result, false);
+                if (isWanted()) this.timer = setTimeout(() => this.relax(), calm);
+            }),
+        );
     }
 
-    private async make(isWanted: () => boolean): Promise<void> {
+    private relax(): void {
+        this.latest.do((isWanted) =>
+            this.attempt(isWanted, "Evening the quads out", async (result, session, options) => {
+                this.relaxing = true;
+                const relaxed = await session.quads(options);
+                if (isWanted()) this.show(relaxed, result, true);
+            }),
+        );
+    }
+
+    private interrupt(): void {
+        clearTimeout(this.timer);
+        if (this.relaxing) this.workshop.stop();
+    }
+
+    private async attempt(
+        isWanted: () => boolean,
+        phase: string,
+        make: (
+            result: EmbedResult,
+            session: EmbeddingSession,
+            options: QuadOptions,
+        ) => Promise<void>,
+    ): Promise<void> {
         const { result, quadMesh, tab } = this.store.get();
         if (!result?.refined || tab !== "quads") return;
+        const { edgeLength, segments } = quadMesh;
+        this.update({ phase, error: null });
         try {
-            await this.makeOf(result, quadMesh, isWanted);
+            await make(result, await this.workshop.embedded(result), {
+                segments,
+                ...(edgeLength !== null && { edgeLength }),
+            });
         } catch (error) {
             if (isWanted()) this.fail(error);
         } finally {
             this.relaxing = false;
             if (isWanted()) this.update({ phase: null });
         }
-    }
-
-    private async makeOf(
-        result: EmbedResult,
-        { edgeLength, segments }: QuadState,
-        isWanted: () => boolean,
-    ): Promise<void> {
-        const options: QuadOptions = { segments, ...(edgeLength !== null && { edgeLength }) };
-        this.update({ phase: "Making quads", error: null });
-        const session = await this.workshop.embedded(result);
-        const rough = await session.quads({ ...options, relaxation: 0 });
-        if (this.store.get().result !== result) return;
-        this.show(rough, result, false);
-        await new Promise((resolve) => setTimeout(resolve, calm));
-        if (!isWanted()) return;
-        this.update({ phase: "Evening the quads out" });
-        this.relaxing = true;
-        const relaxed = await session.quads(options);
-        if (isWanted()) this.show(relaxed, result, true);
     }
 
     private show(mesh: QuadMesh, of: EmbedResult, isRelaxed: boolean): void {

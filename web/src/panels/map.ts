@@ -3,7 +3,7 @@ import type { SurfaceMap } from "layout-embedding";
 import { loadShapes } from "../gallery/catalogue.js";
 import type { Actions } from "../model/actions.js";
 import { nearestVertex, placeOf, type FacePoint } from "../model/correspondence.js";
-import { formatCount, formatLength } from "../model/describe.js";
+import { formatCount, formatFigure } from "../model/describe.js";
 import type { MapState, Texture } from "../model/maps.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
@@ -157,9 +157,7 @@ function figuresOf(map: SurfaceMap, isOptimised: boolean): [string, string][] {
     const { distortion: now, firstDistortion: first } = map;
     const row = (name: string, key: keyof typeof now): [string, string] => [
         name,
-        isOptimised
-            ? `${now[key].toPrecision(4)} (from ${first[key].toPrecision(4)})`
-            : now[key].toPrecision(4),
+        formatFigure(now[key]) + (isOptimised ? ` (from ${formatFigure(first[key])})` : ""),
     ];
     return [
         row("Mean energy", "meanEnergy"),
@@ -184,9 +182,7 @@ function points(store: Store<AppState>, actions: Actions): void {
                     cursor?.from === "a" && cursor.vertex !== null ? String(cursor.vertex) : "";
             const describe = (target: AppState["target"], point: FacePoint | null): string => {
                 if (!target || !point) return "–";
-                const place = placeOf(target, point).map((x) =>
-                    formatLength(Number(x.toPrecision(3))),
-                );
+                const place = placeOf(target, point).map((x) => formatFigure(x));
                 return `near vertex ${nearestVertex(target, point)} (${place.join(", ")})`;
             };
             element("map-points", HTMLElement).replaceChildren(

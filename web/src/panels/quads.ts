@@ -1,6 +1,6 @@
 import type { QuadMesh } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
-import { formatCount, formatLength, formatWhole } from "../model/describe.js";
+import { formatCount, formatFigure, formatLength, formatWhole } from "../model/describe.js";
 import { loopGroups, usualEdgeLength, type LoopGroup, type QuadState } from "../model/quads.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
@@ -86,10 +86,8 @@ function figuresOf({ statistics, quads }: QuadMesh): [string, string][] {
         ["Mean scaled Jacobian", number(statistics.meanJacobian, 3)],
         ["Angles", `${number(leastAngle, 1)}° to ${number(largestAngle, 1)}°`],
         ["Deviation from 90°", `${number(angleDeviation, 1)}°`],
-        [
-            "Edge lengths",
-            [leastEdge, meanEdge, largestEdge].map((x) => x.toPrecision(3)).join(" / "),
-        ],
+        ["Mean edge length", formatFigure(meanEdge)],
+        ["Shortest to longest", `${formatFigure(leastEdge)} to ${formatFigure(largestEdge)}`],
     ];
 }
 
