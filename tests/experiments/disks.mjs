@@ -5,6 +5,7 @@ import { readLandmarks, readPositions } from "../bench/generate.mjs";
 import { minus, dot } from "../bench/vectors.mjs";
 import { embeddingPicture } from "./drawing/picture.mjs";
 import { readMember, shippedShapes } from "./problems.mjs";
+import { claimsOf, judge } from "./report/claims.mjs";
 import { findings, number, percent, picture, pictures, seconds, table } from "./report/html.mjs";
 import { openSession, solveAndRecord, withoutHistory } from "./solving.mjs";
 
@@ -127,26 +128,16 @@ export function section({ cases }) {
 
 export function claims(data) {
     const claim = {
-        section: "6",
         paper: "Disk-topology layouts can be embedded into targets of disk topology and of genus 0 (Fig. 16).",
         rule: "All are embedded; passed if all are also proved optimal.",
-    };
-    if (data === null) {
-        return [{ ...claim, found: "", verdict: "open" }];
-    }
-    const found = data.cases.filter(isFound);
-    const proved = found.filter(({ gap }) => gap === 0);
-    const verdict =
-        found.length < data.cases.length
-            ? "missed"
-            : proved.length === found.length
-              ? "passed"
-              : "confirmed";
-    return [
-        {
-            ...claim,
-            found: `${found.length} of ${data.cases.length}, ${proved.length} proved`,
-            verdict,
+        of: ({ cases }) => {
+            const found = cases.filter(isFound);
+            const proved = found.filter(({ gap }) => gap === 0);
+            return [
+                `${found.length} of ${cases.length}, ${proved.length} proved`,
+                judge(found.length === cases.length, proved.length === cases.length),
+            ];
         },
-    ];
+    };
+    return claimsOf("6", [claim], data);
 }

@@ -1,13 +1,13 @@
 // Fig. 15: maps between two targets, with and without a twist.
 import { texturePicture } from "./drawing/picture.mjs";
 import { cross, dot, minus, normalized } from "../bench/vectors.mjs";
+import { names } from "./methods.mjs";
 import { readMember, shippedShapes } from "./problems.mjs";
+import { claimsOf, judge } from "./report/claims.mjs";
 import { findings, number, picture, pictures, table } from "./report/html.mjs";
 import { openSession, solveAndRecord } from "./solving.mjs";
 
 export const title = "Maps between surfaces (Fig. 15)";
-
-const names = { praun: "[PSS01]", kraevoy: "[KSG03]", schreiner: "[SAPH04]", exact: "exact" };
 
 /** Where both targets are seen from, and the texture is put on. */
 const view = { direction: [0.25, 0.1, 0.95], up: [0, 1, 0] };
@@ -189,23 +189,17 @@ export function section({ pairs }) {
 
 export function claims(data) {
     const claim = {
-        section: "5.4",
         paper: "Maps from greedy embeddings are trapped in a twisted class; those from branch and bound reach the expected result.",
         rule: "On every pair the exact method’s map exists, and the heuristic’s has at least 1.1 times its energy after optimisation, or none can be made.",
-    };
-    if (data === null) {
-        return [{ ...claim, found: "", verdict: "open" }];
-    }
-    const good = data.pairs.filter(
-        ({ maps: [greedy, exact] }) =>
-            !exact.error &&
-            (greedy.error || greedy.distortion.meanEnergy >= 1.1 * exact.distortion.meanEnergy),
-    );
-    return [
-        {
-            ...claim,
-            found: `${good.length} of ${data.pairs.length} pairs`,
-            verdict: good.length === data.pairs.length ? "confirmed" : "missed",
+        of: ({ pairs }) => {
+            const good = pairs.filter(
+                ({ maps: [greedy, exact] }) =>
+                    !exact.error &&
+                    (greedy.error ||
+                        greedy.distortion.meanEnergy >= 1.1 * exact.distortion.meanEnergy),
+            );
+            return [`${good.length} of ${pairs.length} pairs`, judge(good.length === pairs.length)];
         },
-    ];
+    };
+    return claimsOf("5.4", [claim], data);
 }

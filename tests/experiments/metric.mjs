@@ -87,7 +87,7 @@ export function section({ targets }) {
     return [
         findings(
             "Paths run along edges of the mesh and across edge midpoints; they can deviate from geodesics, especially on badly triangulated targets. Exact geodesics could take their place.",
-            `Paths run in a barycentric subdivision of the target. Each path of ${targets.length} proved embeddings beside the geodesic of its homotopy class: ${percent(overall(all, "cost") - 1, 1)} longer in total, ${percent(describe(costs).median - 1, 1)} in the median; on spheres ${percent(overall(spheres, "cost") - 1, 1)}. Straightened paths (shape short), which have to keep a distance from each other, are ${percent(overall(all, "short") - 1, 1)} longer than geodesics in total. So cost, bound and gap are statements about the path graph.`,
+            `Paths run in a barycentric subdivision of the target. Each path of ${targets.length} embeddings beside the geodesic of its homotopy class: ${percent(overall(all, "cost") - 1, 1)} longer in total, ${percent(describe(costs).median - 1, 1)} in the median; on spheres ${percent(overall(spheres, "cost") - 1, 1)}. Straightened paths (shape short), which have to keep a distance from each other, are ${percent(overall(all, "short") - 1, 1)} longer than geodesics in total. So cost, bound and gap are statements about the path graph.`,
         ),
         figure(
             plot({

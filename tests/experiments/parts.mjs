@@ -51,7 +51,7 @@ function problems(quick) {
 }
 
 export async function run({ pool, quick }) {
-    const workLimit = quick ? 2_000_000 : 20_000_000;
+    const workLimit = quick ? 2_000_000 : 10_000_000;
     const inputs = problems(quick).map((_, index) => ({ index, quick, workLimit }));
     return { workLimit, instances: await pool.all("parts", "compare", inputs) };
 }

@@ -49,6 +49,7 @@ std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathG
     options.remember = !without(variant, "memory");
     options.branch_and_bound.gap = gap;
     options.branch_and_bound.candidate_bounds = !without(variant, "candidates");
+    options.branch_and_bound.pairwise_bounds = !without(variant, "pairs");
     options.branch_and_bound.detect_redundant_states = !without(variant, "redundant");
     options.branch_and_bound.delay_non_conflicting = !without(variant, "delay");
     options.branch_and_bound.mixed_priority = !without(variant, "priority");

@@ -1,18 +1,19 @@
 // Fig. 7: both bounds over time, of branch and bound and of the exact method.
 import { cube, problemOf, sphereProblem } from "./problems.mjs";
 import { boundsOverTime, secondsToGap } from "./histories.mjs";
+import { claimsOf, judge } from "./report/claims.mjs";
 import { colours, plot } from "./report/plot.mjs";
 import { figure, findings, number, percent, seconds, table } from "./report/html.mjs";
 import { openSession, solveAndRecord } from "./solving.mjs";
 
 export const title = "Both bounds over time (Fig. 7)";
 
-const workLimit = 60_000_000;
+const workLimit = 30_000_000;
 
 export async function run({ pool, quick }) {
     const seeds = quick ? [1, 2, 3] : [1, 2, 3, 4, 5, 6, 7, 8, 9, 10];
-    const n = quick ? 16 : 32;
-    const limit = quick ? workLimit / 6 : workLimit;
+    const n = quick ? 16 : 24;
+    const limit = quick ? workLimit / 3 : workLimit;
     const inputs = seeds.flatMap((seed) =>
         ["branch-and-bound", "exact"].map((algorithm) => ({ seed, n, algorithm, limit })),
     );
@@ -117,24 +118,18 @@ export function section(data) {
 }
 
 export function claims(data) {
-    const paper =
-        "A cube on a sphere with random landmarks: the optimum is found after 11 s, proved after 139 s (Fig. 7).";
-    const rule =
-        "On every seed the exact method proves the optimum (gap 0), and its median time is below 139 s.";
-    if (data === null) {
-        return [{ section: "4.2", paper, rule, found: "", verdict: "open" }];
-    }
-    const records = of(data, "exact");
-    const times = records.map((record) => secondsToGap(record, 0)).sort((a, b) => a - b);
-    const median = times[Math.floor(times.length / 2)];
-    const holds = times.every(Number.isFinite);
-    return [
-        {
-            section: "4.2",
-            paper,
-            rule,
-            found: `${records.filter(({ gap }) => gap === 0).length} of ${records.length} proved, median ${seconds(median)}`,
-            verdict: holds ? (median < 139 ? "passed" : "confirmed") : "missed",
+    const claim = {
+        paper: "A cube on a sphere with random landmarks: the optimum is found after 11 s, proved after 139 s (Fig. 7).",
+        rule: "On every seed the exact method proves the optimum (gap 0); passed if the slowest takes less than 139 CPU seconds.",
+        of: () => {
+            const times = of(data, "exact").map((record) => secondsToGap(record, 0));
+            const proved = times.filter(Number.isFinite);
+            const slowest = Math.max(...proved);
+            return [
+                `${proved.length} of ${times.length} proved, the slowest after ${seconds(slowest)}`,
+                judge(proved.length === times.length, slowest < 139),
+            ];
         },
-    ];
+    };
+    return claimsOf("4.2", [claim], data);
 }

@@ -1,6 +1,5 @@
 // What the paper's Section 5 claims, judged by the numbers of the run: experiments list their claims with
 // a rule, the value that it is applied to, and its verdict.
-import { experiments } from "../list.mjs";
 import { escape } from "./html.mjs";
 
 const verdicts = {
@@ -14,7 +13,7 @@ const verdicts = {
  * A claim: { section, paper, rule, found, verdict }, all but the verdict HTML. `confirmed`: found
  * as the paper has it; `passed`: better; `missed`: not reached; `open`: not tried in this run.
  */
-export function claimsTable(results) {
+export function claimsTable(experiments, results) {
     const rows = experiments
         .filter(({ experiment }) => experiment.claims !== undefined)
         .flatMap(({ name, experiment }) => {
@@ -26,7 +25,18 @@ export function claimsTable(results) {
         ({ section, paper, rule, found, verdict, name }) =>
             `<tr><td>${escape(section)}</td><td>${paper}</td><td>${rule}</td><td>${verdict === "open" ? "" : `${found} <a href="#${name}" aria-label="the experiment">↑</a>`}</td><td class="verdict ${verdict}">${verdicts[verdict]}</td></tr>`,
     );
-    return `<p>Verdicts follow from the run’s numbers by the rule in the third column. <i>Confirmed</i>: as the paper has it. <i>Passed</i>: the rule holds, with a better value than the paper’s. <i>Not reached</i>: the rule fails.</p><div class="wide"><table><thead><tr><th>Section</th><th>The paper’s claim</th><th>Rule</th><th>This run</th><th>Verdict</th></tr></thead><tbody>${body.join("")}</tbody></table></div>`;
+    return `<p>Verdicts follow from the run’s numbers by the rule in the third column. <i>Confirmed</i>: as the paper has it. <i>Passed</i>: the rule holds, with a better value than the paper’s. <i>Not reached</i>: the rule fails, so this run does not show it.</p><div class="wide"><table><thead><tr><th>Section</th><th>The paper’s claim</th><th>Rule</th><th>This run</th><th>Verdict</th></tr></thead><tbody>${body.join("")}</tbody></table></div>`;
+}
+
+/**
+ * The claims of an experiment: { paper, rule, of, section }, where `of` makes [found, verdict] of the
+ * experiment's data. Without data they are open.
+ */
+export function claimsOf(section, entries, data) {
+    return entries.map(({ of, ...claim }) => {
+        const [found, verdict] = data === null ? ["", "open"] : of(data);
+        return { section, ...claim, found, verdict };
+    });
 }
 
 /** A claim's verdict: `passed` where `better`, else `confirmed` or `missed`. */

@@ -25,7 +25,7 @@ export function writeReport(folder, run) {
 ${introduction(run)}
 <nav aria-label="Contents"><ol>${contents.join("")}</ol></nav>
 ${sections.join("\n")}
-<section id="claims"><h2>The paper's claims</h2>${claimsTable(run.experiments)}</section>
+<section id="claims"><h2>The paper's claims</h2>${claimsTable(experiments, run.experiments)}</section>
 </main></body></html>
 `;
     const file = path.join(folder, "report.html");
