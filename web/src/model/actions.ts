@@ -1,88 +1,45 @@
 import type {
     Algorithm,
-    EmbedProgress,
     ExportFormat,
     LandmarkDoubt,
     LayoutInfo,
     MeshArrays,
-    MeshInput,
     PathShape,
+    UncheckedMesh,
 } from "layout-embedding";
 import type { Example } from "../examples/index.js";
 import type { Shape } from "../gallery/catalogue.js";
 import { aligned, areFarApart } from "./alignment.js";
 import { Batch, pairFiles } from "./batch.js";
-import {
-    algorithmWords,
-    causeAndAdvice,
-    improvingWords,
-    phaseWords,
-    reshapeWords,
-    titleOf,
-} from "./describe.js";
+import { algorithmWords, causeAndAdvice, reshapeWords, titleOf } from "./describe.js";
 import type { Engine, Worker } from "./engine.js";
 import { assignRoles, look } from "./files.js";
 import { LandmarkEditor, unsolved } from "./landmark_editor.js";
-import {
-    completeIds,
-    missingLandmarks,
-    noLandmarks,
-    placedLandmarks,
-    type Landmarks,
-} from "./landmarks.js";
+import { completeIds, missingLandmarks, noLandmarks, placedLandmarks } from "./landmarks.js";
 import { Mapping } from "./mapping.js";
-import { mends } from "./mending.js";
 import { landmarksOf, lineOf, meshPlace } from "./places.js";
 import type { Store } from "./store.js";
-import type { Activity, AppState, Display, Item, Origin, Problem, Tab } from "./state.js";
+import {
+    startedActivity,
+    type AppState,
+    type Display,
+    type Item,
+    type Origin,
+    type Problem,
+    type Tab,
+} from "./state.js";
 import { QuadPreview } from "./quad_preview.js";
+import { layoutRemedy, meshRemedy } from "./remedies.js";
 import { RouteEditor } from "./route_editor.js";
-import { droppedWords, fits, type RouteRule } from "./routes.js";
-import { TraceRecorder } from "./trace.js";
+import { droppedWords, fits } from "./routes.js";
+import { Solving } from "./solving.js";
+import { inputOf, nameOf, type Role, type SavedWork, type Source } from "./sources.js";
 import { Workshop } from "./workshop.js";
-
-/** The same file or arrays can be read again: file contents are fetched each time. */
-export type Source = File | MeshInput;
-export type Role = "layout" | "target";
-
-/** What can be put away and opened again. */
-export interface SavedWork {
-    readonly layout: Source | null;
-    readonly target: Source | null;
-    readonly landmarks: Landmarks | null;
-    readonly making: boolean;
-    readonly quads: boolean;
-    readonly repair: boolean;
-    readonly options: AppState["options"];
-    readonly origin: Origin | null;
-    readonly routes: readonly RouteRule[];
-    /** Whether there was an embedding: then it is looked for again. */
-    readonly solved: boolean;
-}
-
-/** Errors that reading again with repair may get rid of. */
-const repairable = new Set([
-    "degenerateFace",
-    "duplicateFace",
-    "coincidentVertices",
-    "unusedVertex",
-]);
 
 /** The heuristics that the result is compared with. */
 const heuristics: readonly Algorithm[] = ["greedy", "praun", "kraevoy", "schreiner"];
 
-/** A preview's search ends here, so that it keeps up with the hand. */
-const previewSeconds = 0.4;
-
 const nothingSolved = { ...unsolved, highlight: null, selected: null } as const;
-
-const nameOf = (source: Source): string => source.name ?? "mesh";
-
-async function inputOf(source: Source): Promise<MeshInput> {
-    return source instanceof File
-        ? { name: source.name, bytes: await source.arrayBuffer() }
-        : source;
-}
 
 /**
  * Everything that can happen to the state. Actions run one after the other: one that comes while a
@@ -93,12 +50,11 @@ export class Actions {
     readonly routes: RouteEditor;
     readonly quadMesh: QuadPreview;
     readonly map: Mapping;
+    private readonly solving: Solving;
     private readonly batch: Batch;
     private readonly sources: Partial<Record<Role, Source>> = {};
     private queue: Promise<void> = Promise.resolve();
-    private abort: AbortController | null = null;
     private problemCount = 0;
-    private previewing = false;
     /** Whether the engine has the layout turned inside out; the state says what is wanted. */
     private layoutFlipped = false;
 
@@ -108,8 +64,9 @@ export class Actions {
         /** Starts a worker of its own for what can only be ended with its worker. */
         startWorker: () => Promise<Worker>,
     ) {
+        this.solving = new Solving(store, engine, (error) => this.report(error));
         this.landmarks = new LandmarkEditor(store, {
-            dragged: (id) => void this.preview(id),
+            dragged: (id) => void this.solving.preview(id),
             edited: (wasSolved) => this.afterEdit(wasSolved),
         });
         this.routes = new RouteEditor(store, this.landmarks, () =>
@@ -131,7 +88,7 @@ export class Actions {
             if (!(await this.load("layout", layout)) || !(await this.load("target", target)))
                 return;
             this.store.update({ landmarks: placedLandmarks(landmarks, "example") });
-            await this.runSolve();
+            await this.solving.run();
         });
     }
 
@@ -151,7 +108,7 @@ export class Actions {
             if (!keep && !(await this.makeLayout(opened.landmarks, quads, `${shape.title} layout`)))
                 return;
             this.store.update({ landmarks });
-            await this.runSolve();
+            await this.solving.run();
         });
     }
 
@@ -204,7 +161,7 @@ export class Actions {
                     routes: saved.routes.filter((rule) => fits(rule, layout, landmarks)),
                 });
             if (saved.making) await this.rebuildLayout();
-            else if (saved.solved) await this.runSolve();
+            else if (saved.solved) await this.solving.run();
         });
     }
 
@@ -235,7 +192,7 @@ export class Actions {
             if (!(await this.load("target", target))) return;
             if (landmarks) await this.readLandmarks(landmarks);
             else await this.guessLandmarks();
-            await this.runSolve();
+            await this.solving.run();
         });
     }
 
@@ -316,15 +273,12 @@ export class Actions {
     }
 
     solve(): Promise<void> {
-        return this.enqueue(() => this.runSolve());
+        return this.enqueue(() => this.solving.run());
     }
 
     /** Ends a running solve; what it has found stays. */
     cancel(): void {
-        const { activity } = this.store.get();
-        if (!this.abort || activity?.kind !== "solving") return;
-        this.abort.abort();
-        this.store.update({ activity: { ...activity, cancelling: true } });
+        this.solving.cancel();
     }
 
     /** Runs the heuristics on the same problem and shows the worst of them beside the result. */
@@ -498,8 +452,20 @@ export class Actions {
         });
     }
 
+    /** Does something with a mesh that was refused; null if that failed, which is reported. */
+    mended<Result>(
+        role: Role,
+        source: Source,
+        mend: (mesh: UncheckedMesh) => Result,
+    ): Promise<Result | null> {
+        const options = { repair: this.store.get().repair };
+        return this.attempt("Mending the mesh", async () =>
+            mend(await this.engine.inspect(role, await inputOf(source), options)),
+        );
+    }
+
     private enqueue(task: () => Promise<void>): Promise<void> {
-        this.cancel();
+        this.solving.cancel();
         this.queue = this.queue.then(task).catch((error: unknown) => this.report(error));
         return this.queue;
     }
@@ -522,7 +488,7 @@ export class Actions {
         task: () => Promise<Result>,
         report: (error: unknown) => void | Promise<void> = (error) => this.report(error),
     ): Promise<Result | null> {
-        this.store.update({ activity: activity("loading", phase) });
+        this.store.update({ activity: startedActivity("loading", phase) });
         try {
             return await task();
         } catch (error) {
@@ -551,9 +517,7 @@ export class Actions {
             async (error) => {
                 this.report(error, {
                     about: role,
-                    remedy:
-                        this.repairRemedy(role, source, error) ??
-                        this.mendRemedy(role, source, error),
+                    remedy: meshRemedy(error, role, source, options.repair, this),
                     line: source instanceof File ? await lineOf(error, source) : null,
                     place: await meshPlace(error, role, nameOf(source), async () =>
                         this.engine.inspect(role, await inputOf(source), options),
@@ -587,35 +551,6 @@ export class Actions {
         this.notice(droppedWords(routes, why));
     }
 
-    private repairRemedy(role: Role, source: Source, error: unknown): Problem["remedy"] {
-        if (this.store.get().repair || !(error instanceof Error && "code" in error)) return null;
-        if (!repairable.has(String(error.code))) return null;
-        return {
-            label: "Repair and read again",
-            apply: () => {
-                this.setRepair(true);
-                void this.openAs(role, source);
-            },
-        };
-    }
-
-    /** What changes the mesh more than a repair does, and so has to be asked for. */
-    private mendRemedy(role: Role, source: Source, error: unknown): Problem["remedy"] {
-        const code = error instanceof Error && "code" in error ? String(error.code) : "";
-        const help = mends[code];
-        if (!help) return null;
-        const apply = async () => {
-            const options = { repair: this.store.get().repair };
-            const mended = await this.attempt("Mending the mesh", async () =>
-                help.mend(await this.engine.inspect(role, await inputOf(source), options)),
-            );
-            if (!mended) return;
-            await this.openAs(role, { ...mended.mesh, name: nameOf(source) });
-            this.notice(mended.note);
-        };
-        return { label: help.label, apply: () => void apply() };
-    }
-
     /** Proximity where layout and target allow it; used after loading. */
     private async guessLandmarks(): Promise<void> {
         const { layout, target } = this.store.get();
@@ -639,15 +574,8 @@ export class Actions {
                 const { landmarks, notes } = await this.engine.landmarksByProximity(elsewhere);
                 this.replaceLandmarks(landmarks, align ? "aligned" : "by proximity", notes);
             },
-            (error) => this.report(error, { remedy: this.newLayoutRemedy(error) }),
+            (error) => this.report(error, { remedy: layoutRemedy(error, this) }),
         );
-    }
-
-    /** For a target that the layout does not fit: a layout of its own. */
-    private newLayoutRemedy(error: unknown): Problem["remedy"] {
-        const code = error instanceof Error && "code" in error ? error.code : null;
-        if (code !== "topologyMismatch") return null;
-        return { label: "Make a layout for it", apply: () => void this.setMaking(true) };
     }
 
     private async readLandmarks(file: File): Promise<void> {
@@ -677,7 +605,7 @@ export class Actions {
         else if (flipped !== this.layoutFlipped)
             void this.enqueue(async () => {
                 await this.turnLayout();
-                if (live && wasSolved) await this.runSolve();
+                if (live && wasSolved) await this.solving.run();
             });
         else if (live && wasSolved && landmarks && completeIds(landmarks)) void this.solve();
         // A solve for other landmarks is of no use any more.
@@ -742,7 +670,7 @@ export class Actions {
         if (!ids || origin?.kind !== "shape") return;
         if (!(await this.makeLayout(ids, quads, layout?.name ?? "layout"))) return;
         this.store.update({ landmarks });
-        await this.runSolve();
+        await this.solving.run();
     }
 
     /** A layout of the target and these landmarks, loaded. */
@@ -754,130 +682,6 @@ export class Actions {
         const { positions, corners, offsets } = made;
         return this.load("layout", { positions, corners, offsets, name });
     }
-
-    /**
-     * A quick embedding for a landmark that moves; skipped while one is being made. What the engine
-     * has solved follows where it can; otherwise a heuristic makes one anew.
-     */
-    private async preview(id: number): Promise<void> {
-        if (this.previewing || !this.store.get().live || this.store.get().making) return;
-        this.cancel();
-        this.previewing = true;
-        try {
-            for (;;) {
-                const { landmarks } = this.store.get();
-                const ids = landmarks && completeIds(landmarks);
-                if (!ids) return;
-                const follow = await this.engine.follow(id, ids);
-                const quick = follow ? { follow } : await this.greedyBeside(ids);
-                const now = this.store.get();
-                // The hand may have gone on, or come to rest and been overtaken by the full solve.
-                if (now.result || now.activity) return;
-                this.store.update(quick);
-                if (now.landmarks === landmarks) return;
-            }
-        } catch {
-            // Two landmarks in one place and the like: the full solve says what is wrong.
-        } finally {
-            this.previewing = false;
-        }
-    }
-
-    private async greedyBeside(ids: Uint32Array): Promise<Pick<AppState, "preview" | "follow">> {
-        const { seed, shape } = this.store.get().options;
-        const preview = await this.engine.solveBeside(ids, {
-            algorithm: "greedy",
-            timeLimit: previewSeconds,
-            seed,
-            shape,
-        });
-        return { preview, follow: null };
-    }
-
-    private async runSolve(): Promise<void> {
-        const { layout, target, landmarks, options, routes } = this.store.get();
-        const ids = landmarks && completeIds(landmarks);
-        if (!layout || !target || !ids) return;
-        const abort = new AbortController();
-        this.abort = abort;
-        this.store.update({
-            ...unsolved,
-            activity: activity("solving", phaseWords.prepare),
-            preview: this.store.get().preview,
-            follow: this.store.get().follow,
-            problems: [],
-            shownPlace: null,
-        });
-        const recorder = new TraceRecorder();
-        // The views are brought up to date once per frame, however often the worker reports.
-        let latest: EmbedProgress | null = null;
-        let paths: EmbedProgress["paths"] = null;
-        let frame = 0;
-        const showLatest = () => {
-            frame = 0;
-            if (latest) this.showProgress(latest, paths, recorder);
-            paths = null;
-        };
-        try {
-            await this.engine.useLandmarks(ids);
-            const { algorithm, gap, seed, shape, timeLimit, workLimit } = options;
-            const result = await this.engine.solve({
-                gap,
-                seed,
-                shape,
-                ...(algorithm !== null && routes.length === 0 && { algorithm }),
-                ...(timeLimit !== null && { timeLimit }),
-                ...(workLimit !== null && { workLimit }),
-                constraints: routes.map(({ rule, edge, path }) => ({ rule, edge, path })),
-                signal: abort.signal,
-                onProgress: (progress) => {
-                    recorder.add(progress);
-                    latest = progress;
-                    paths = progress.paths ?? paths;
-                    frame ||= requestAnimationFrame(showLatest);
-                },
-            });
-            cancelAnimationFrame(frame);
-            showLatest();
-            // Landmarks that were edited meanwhile belong to another problem.
-            const now = this.store.get().landmarks;
-            if (now && sameIds(completeIds(now), ids))
-                this.store.update({
-                    result,
-                    trace: recorder.finished(result),
-                    preview: null,
-                    follow: null,
-                });
-        } catch (error) {
-            this.report(error);
-        } finally {
-            cancelAnimationFrame(frame);
-            this.abort = null;
-            this.store.update({ activity: null });
-        }
-    }
-
-    private showProgress(
-        { phase, progress, cost, lowerBound, seconds }: EmbedProgress,
-        paths: EmbedProgress["paths"],
-        recorder: TraceRecorder,
-    ): void {
-        const { activity: current } = this.store.get();
-        if (!current) return;
-        // Once there is an embedding, nobody knows how long it takes to find a better one.
-        const improving = phase === "search" && Number.isFinite(cost);
-        this.store.update({
-            activity: {
-                ...current,
-                phase: improving ? improvingWords : phaseWords[phase],
-                progress: improving ? null : progress,
-                cost,
-                lowerBound,
-            },
-            trace: recorder.snapshot(seconds),
-            ...(paths ? { livePaths: paths, preview: null, follow: null } : {}),
-        });
-    }
 }
 
 /** The corners of a layout's faces, each face the other way round from its first corner. */
@@ -886,20 +690,4 @@ function turnedFaces({ corners, offsets }: LayoutInfo): Uint32Array {
     for (let f = 0; f + 1 < offsets.length; ++f)
         turned.subarray(offsets[f]! + 1, offsets[f + 1]).reverse();
     return turned;
-}
-
-function sameIds(a: Uint32Array | null, b: Uint32Array): boolean {
-    return a?.length === b.length && a.every((vertex, i) => vertex === b[i]);
-}
-
-function activity(kind: Activity["kind"], phase: string): Activity {
-    return {
-        kind,
-        phase,
-        progress: null,
-        startedAt: performance.now(),
-        cost: Infinity,
-        lowerBound: 0,
-        cancelling: false,
-    };
 }

@@ -1,7 +1,7 @@
 // A session as one zip file: layout and target as they were given, and session.json for the rest.
 import { strFromU8, strToU8, unzipSync } from "fflate";
 import type { MeshArrays, MeshFile } from "layout-embedding";
-import type { SavedWork, Source } from "./actions.js";
+import type { SavedWork, Source } from "./sources.js";
 import type { Landmarks } from "./landmarks.js";
 import type { RouteRule } from "./routes.js";
 import { initialState } from "./state.js";

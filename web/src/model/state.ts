@@ -220,6 +220,17 @@ export interface AppState {
     readonly display: Display;
 }
 
+/** An activity at its beginning. */
+export const startedActivity = (kind: Activity["kind"], phase: string): Activity => ({
+    kind,
+    phase,
+    progress: null,
+    startedAt: performance.now(),
+    cost: Infinity,
+    lowerBound: 0,
+    cancelling: false,
+});
+
 export const initialState: AppState = {
     layout: null,
     target: null,

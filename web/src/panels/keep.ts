@@ -1,5 +1,6 @@
-import type { Actions, SavedWork } from "../model/actions.js";
+import type { Actions } from "../model/actions.js";
 import { unpackSession } from "../model/session_file.js";
+import type { SavedWork } from "../model/sources.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 

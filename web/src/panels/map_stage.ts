@@ -8,13 +8,7 @@ import { carriedColors } from "../view3d/carried_surface.js";
 import type { Sighting } from "../view3d/mesh_view.js";
 import { TargetView } from "../view3d/target_view.js";
 import { element, setText } from "./dom.js";
-
-export const arrowSteps: Readonly<Record<string, readonly [x: number, y: number]>> = {
-    ArrowLeft: [-1, 0],
-    ArrowRight: [1, 0],
-    ArrowUp: [0, 1],
-    ArrowDown: [0, -1],
-};
+import { arrowSteps, viewKeys } from "./view_keys.js";
 
 /** The map that is shown on both targets; null for none. */
 export const shownMap = ({ tab, map }: AppState) => (tab === "map" ? map.map : null);
@@ -27,7 +21,6 @@ export function mapStage(
     store: Store<AppState>,
     actions: Actions,
     first: TargetView,
-    keys: string,
     opened: (view: TargetView) => void,
 ): void {
     const figure = element("map-view", HTMLElement);
@@ -46,7 +39,7 @@ export function mapStage(
             if (tab !== "map" || second) return;
             second = new TargetView(
                 figure,
-                `Second target in 3D. ${keys} Shift and arrow keys move the cursor from vertex to vertex.`,
+                `Second target in 3D. ${viewKeys} Shift and arrow keys move the cursor from vertex to vertex.`,
                 { hover: () => undefined, click: () => undefined },
             );
             second.applyTheme();

@@ -16,14 +16,15 @@ import type { Store } from "../model/store.js";
 import { chainPaths } from "../view3d/geometry.js";
 import { LayoutView } from "../view3d/layout_view.js";
 import type { MeshView, Sighting } from "../view3d/mesh_view.js";
-import { PlaceView } from "../view3d/place_view.js";
 import { TargetView } from "../view3d/target_view.js";
 import { element, setText } from "./dom.js";
-import { arrowSteps, mapStage, shownMap } from "./map_stage.js";
+import { mapStage, shownMap } from "./map_stage.js";
+import { placesOfProblems } from "./places.js";
+import { bannerWhilePlacing, keysInTarget } from "./placing.js";
 import { selectionCard } from "./selection.js";
 import { onThemeChange } from "./theme.js";
+import { viewKeys } from "./view_keys.js";
 
-const keys = "Arrow keys turn it, plus and minus zoom.";
 const pathShapes: readonly PathShape[] = ["short", "even", "fair"];
 
 /** What shortcuts do in the views. */
@@ -43,7 +44,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
     const highlight = (sighting: Sighting | null) => actions.highlight(sighting?.item ?? null);
     const targetView = new TargetView(
         element("target-view", HTMLElement),
-        `Target in 3D. ${keys} Enter places a landmark in the middle, Shift and arrow keys move the chosen one.`,
+        `Target in 3D. ${viewKeys} Enter places a landmark in the middle, Shift and arrow keys move the chosen one.`,
         {
             hover: (sighting) => {
                 highlight(sighting);
@@ -62,7 +63,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
     );
     const layoutView = new LayoutView(
         element("layout-view", HTMLElement),
-        `Layout in 3D. ${keys}`,
+        `Layout in 3D. ${viewKeys}`,
         {
             hover: highlight,
             click: ({ item }) => {
@@ -146,7 +147,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
             const figure = element("compare-view", HTMLElement);
             if (shown === null) return;
             if (!compareView) {
-                compareView = new TargetView(figure, `Heuristic in 3D. ${keys}`, {
+                compareView = new TargetView(figure, `Heuristic in 3D. ${viewKeys}`, {
                     hover: highlight,
                     click: ({ item }) => actions.select(item),
                 });
@@ -182,7 +183,7 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
             main.classList.toggle("comparing", two);
         },
     );
-    mapStage(store, actions, targetView, keys, (view) => {
+    mapStage(store, actions, targetView, (view) => {
         views.push(view);
         link(views, store);
         const { display } = store.get();
@@ -347,92 +348,6 @@ function pathsOf(state: AppState): Polylines | null {
     if (step !== null) return trace.incumbents[step]?.paths ?? null;
     if (candidates?.shown) return candidates.found.paths;
     return follow?.paths ?? chainsOf(shownResult(state)) ?? livePaths;
-}
-
-/** Shows where problems lie: a refused mesh over the target's view, a landmark in that view. */
-function placesOfProblems(store: Store<AppState>, actions: Actions, target: TargetView): void {
-    const figure = element("place-view", HTMLElement);
-    let view: PlaceView | null = null;
-    element("place-close", HTMLButtonElement).addEventListener("click", () =>
-        actions.showPlace(null),
-    );
-    onThemeChange(store, () => view?.applyTheme());
-    store.watch(
-        (state) => [state.shownPlace],
-        (id) => {
-            const { problems, landmarks } = store.get();
-            const problem = problems.find((one) => one.id === id);
-            const place = problem?.place ?? null;
-            figure.hidden = place?.kind !== "mesh";
-            if (!problem || !place) return;
-            if (place.kind === "landmarks") {
-                const vertex = landmarks?.places[place.ids[0]!] ?? null;
-                actions.select({ kind: "vertex", id: place.ids[0]! });
-                if (vertex !== null) target.focusOn(vertex);
-                return;
-            }
-            figure.scrollIntoView({ block: "nearest" });
-            setText("place-name", `${place.name}, as it was read`);
-            view ??= new PlaceView(figure, `Place of the problem in 3D. ${keys}`);
-            view.show(place);
-        },
-    );
-}
-
-/** Says which landmark the next click places. */
-function bannerWhilePlacing(store: Store<AppState>, actions: Actions): void {
-    const banner = element("placing", HTMLElement);
-    element("placing-stop", HTMLButtonElement).addEventListener("click", () =>
-        actions.landmarks.startPlacing(null),
-    );
-    store.watch(
-        (state) => [state.placing, state.landmarks, state.making],
-        (placing, landmarks, making) => {
-            const begins = banner.hidden && placing !== null;
-            banner.hidden = placing === null;
-            if (placing === null) return;
-            // On a phone the target may be far above the button.
-            if (begins) element("target-view", HTMLElement).scrollIntoView({ block: "nearest" });
-            const label = landmarkLabel(landmarks, placing);
-            setText(
-                "placing-text",
-                making ? `Click to add landmark ${label}` : `Click where landmark ${label} goes`,
-            );
-        },
-    );
-}
-
-/** Landmarks by keyboard, in the target's view. */
-function keysInTarget(store: Store<AppState>, actions: Actions, view: TargetView): void {
-    const editor = actions.landmarks;
-    const { canvas } = view.viewer;
-    /** Shows where Enter would place the landmark, to those who work with the keys. */
-    const aim = () => {
-        const { placing } = store.get();
-        if (placing !== null && canvas.matches(":focus-visible"))
-            view.setGhost(placing, view.vertexInTheMiddle());
-    };
-    canvas.addEventListener("focus", aim);
-    store.watch((state) => [state.placing, state.landmarks], aim);
-    // After the view itself has turned.
-    canvas.addEventListener("keydown", aim);
-    canvas.addEventListener("keydown", (event) => {
-        if (event.ctrlKey || event.metaKey || event.altKey) return;
-        const { landmarks, selected, placing } = store.get();
-        const step = event.shiftKey ? arrowSteps[event.key] : undefined;
-        if (step && selected?.kind === "vertex") {
-            const vertex = landmarks?.places[selected.id];
-            const next =
-                vertex === null || vertex === undefined ? null : view.neighbour(vertex, ...step);
-            if (next !== null) editor.place(selected.id, next);
-        } else if (event.key === "Enter" && placing !== null) {
-            const vertex = view.vertexInTheMiddle();
-            if (vertex !== null) editor.placeOn(vertex);
-        } else {
-            return;
-        }
-        event.preventDefault();
-    });
 }
 
 function describe(item: Item, state: AppState): string {
