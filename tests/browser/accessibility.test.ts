@@ -104,6 +104,18 @@ test("on_a_phone_axe_has_no_objections_and_nothing_is_wider_than_the_screen", as
         360,
     );
     expect(await violations(page)).toEqual([]);
+    for (const [tab, made] of [
+        ["quads", "#loop-rows input"],
+        ["map", "#map-figures dd"],
+    ] as const) {
+        await page.click(`#tab-${tab}`);
+        if (tab === "map") await page.click("#map-shapes button");
+        await page.locator(made).first().waitFor();
+        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(
+            360,
+        );
+        expect(await violations(page)).toEqual([]);
+    }
     expect(complaints).toEqual([]);
     await close();
 });

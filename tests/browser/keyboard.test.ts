@@ -178,3 +178,44 @@ test("arrow_keys_turn_a_view_and_r_brings_it_back", async () => {
     await page.keyboard.press("r");
     expect((await picture()) === pictures[0]).toBe(true);
 });
+
+test("quads_and_a_map_are_made_with_the_keyboard_alone", async () => {
+    const { page } = opened();
+    const focused = () => page.evaluate(() => document.activeElement?.id ?? "");
+    const before = await page.textContent("#target-name");
+    await page.keyboard.press("g");
+    const card = page.locator("#gallery-cards button", { hasText: "Tulip" });
+    await card.focus();
+    await page.keyboard.press("Enter");
+    await untilSolvedAfter(page, before);
+    // The tabs are one stop; arrows go from one to the next.
+    await page.focus("#tab-embedding");
+    await page.keyboard.press("ArrowRight");
+    expect(await focused()).toBe("tab-quads");
+    await page.keyboard.press("Tab");
+    expect(await focused()).toBe("density");
+    await page.locator("#quad-figures dd").first().waitFor();
+    const quads = await page.locator("#quad-figures dd").first().textContent();
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForFunction(
+        (count) => document.querySelector("#quad-figures dd")?.textContent !== count,
+        quads,
+    );
+    await page.focus("#tab-quads");
+    await page.keyboard.press("End");
+    expect(await focused()).toBe("tab-map");
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Enter");
+    await page.locator("#map-figures dd").first().waitFor();
+    // The cursor begins in the middle of a view and goes on from vertex to vertex.
+    await page.focus("#map-view canvas");
+    await page.keyboard.press("Shift+ArrowUp");
+    const first = await page.textContent("#announcement");
+    expect(first).toMatch(
+        /^Vertex \d+ of the second target corresponds to a point of triangle \d+/,
+    );
+    await page.keyboard.press("Shift+ArrowUp");
+    expect(await page.textContent("#announcement")).not.toBe(first);
+    await page.keyboard.press("1");
+    expect(await page.isVisible("#embedding-tab")).toBe(true);
+});

@@ -2,7 +2,7 @@
 import { readFile } from "node:fs/promises";
 import { mapFiles, Session } from "layout-embedding";
 import { unzipSync } from "fflate";
-import { expect, test } from "vitest";
+import { expect, inject, test } from "vitest";
 import {
     colorsOf,
     downloaded,
@@ -10,6 +10,8 @@ import {
     frames,
     ready,
     solve,
+    solved,
+    textFile,
     untilStatus,
     usePage,
 } from "./browser.js";
@@ -194,6 +196,48 @@ test("a_second_target_is_dropped_with_its_landmarks", async () => {
     ]);
     await untilMapped(/boundary|do not fit|Euler/);
     expect(await page.textContent("#embedded")).toBe("12 of 12");
+});
+
+test("a_second_target_is_saved_with_a_session_and_is_there_after_a_reload", async () => {
+    const { page } = opened();
+    await drop(page, [
+        { name: "egg.obj", text: toObj(stretched(ball(2))) },
+        { name: "egg.txt", text: "0\n1\n2\n3\n4\n5\n6\n7\n" },
+    ]);
+    await untilMapped();
+    const figures = () => page.locator("#map-figures dd").allTextContents();
+    const before = await figures();
+    await page.click("#tab-embedding");
+    const session = await downloaded(page, () => page.click("#save-session"));
+    expect(Object.keys(unzipSync(session)).sort()).toEqual([
+        "layout.obj",
+        "second.obj",
+        "second_landmarks.txt",
+        "session.json",
+        "target.obj",
+    ]);
+    const mappedAgain = async () => {
+        await untilStatus(page, solved);
+        await page.click("#tab-map");
+        await untilMapped(/^Mapped to egg\.obj, optimised/);
+        expect(await figures()).toEqual(before);
+    };
+    await page.goto(inject("pageUrl").replace(/\/$/, "/index.html"));
+    await mappedAgain();
+    await page.click("#tab-embedding");
+    await page.setInputFiles("#target-file", textFile("other.obj", toObj(ball(1))));
+    await page.waitForFunction(
+        () => document.getElementById("target-name")?.textContent === "other.obj",
+    );
+    await page.setInputFiles("#any-file", {
+        name: "session.zip",
+        mimeType: "application/zip",
+        buffer: session,
+    });
+    await page.waitForFunction(
+        () => document.getElementById("target-name")?.textContent === "ball.obj",
+    );
+    await mappedAgain();
 });
 
 /** Longer in one direction. */

@@ -160,6 +160,8 @@ export class Actions {
                 this.store.update({
                     routes: saved.routes.filter((rule) => fits(rule, layout, landmarks)),
                 });
+            if (saved.second)
+                await this.map.restore(saved.second).catch((error: unknown) => this.report(error));
             if (saved.making) await this.rebuildLayout();
             else if (saved.solved) await this.solving.run();
         });
@@ -167,7 +169,7 @@ export class Actions {
 
     /** What restore() needs to bring everything back. */
     saved(): SavedWork {
-        const { landmarks, making, quads, repair, options, origin, routes, result } =
+        const { landmarks, making, quads, repair, options, origin, routes, map, result } =
             this.store.get();
         const { layout = null, target = null } = this.sources;
         const solved = result !== null;
@@ -181,6 +183,7 @@ export class Actions {
             options,
             origin,
             routes,
+            second: map.other?.saved ?? null,
             solved,
         };
     }

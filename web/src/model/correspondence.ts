@@ -1,5 +1,6 @@
 // Points that correspond under a map between two targets, found in the overlay of both.
 import type { SurfaceMap, TargetInfo } from "layout-embedding";
+import { groupsOf, membersOf, type Groups } from "./groups.js";
 
 export type Side = "a" | "b";
 export const otherSide = (side: Side): Side => (side === "a" ? "b" : "a");
@@ -61,8 +62,7 @@ export function nearestVertex({ corners }: TargetInfo, { face, weights }: FacePo
 
 /** The overlay triangles of each face of one target. */
 class OverlayFinder {
-    private readonly offsets: Uint32Array;
-    private readonly triangles: Uint32Array;
+    private readonly triangles: Groups;
 
     constructor(
         private readonly faces: Uint32Array,
@@ -70,22 +70,14 @@ class OverlayFinder {
         private readonly weights: Float64Array,
     ) {
         const faceCount = faces.reduce((most, face) => Math.max(most, face + 1), 0);
-        this.offsets = new Uint32Array(faceCount + 1);
-        for (const face of faces) this.offsets[face + 1]! += 1;
-        for (let f = 0; f < faceCount; ++f) this.offsets[f + 1]! += this.offsets[f]!;
-        this.triangles = new Uint32Array(faces.length);
-        const filled = this.offsets.slice();
-        faces.forEach((face, t) => {
-            this.triangles[filled[face]!++] = t;
-        });
+        this.triangles = groupsOf(faces, faceCount);
     }
 
     /** The triangle that holds a point best, and the point's barycentric coordinates there. */
     find({ face, weights }: FacePoint): { triangle: number; shares: number[] } | null {
         let best: { triangle: number; shares: number[] } | null = null;
         let most = -Infinity;
-        const range = this.triangles.subarray(this.offsets[face] ?? 0, this.offsets[face + 1] ?? 0);
-        for (const triangle of range) {
+        for (const triangle of membersOf(this.triangles, face)) {
             const shares = this.sharesIn(triangle, weights);
             const least = shares ? Math.min(...shares) : -Infinity;
             if (shares && least > most) [best, most] = [{ triangle, shares }, least];

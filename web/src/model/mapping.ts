@@ -1,10 +1,11 @@
 import type { EmbeddingSession, EmbedResult, SurfaceMap } from "layout-embedding";
-import type { Shape } from "../gallery/catalogue.js";
+import { loadShapes, type Shape } from "../gallery/catalogue.js";
 import { isLandmarkFile } from "./batch.js";
 import { Correspondence, otherSide, type FacePoint, type Side } from "./correspondence.js";
 import { formatLength, sentencesOf, statusWords } from "./describe.js";
 import { Latest } from "./latest.js";
 import type { MapState, OtherTarget, Texture } from "./maps.js";
+import type { SavedSecond } from "./sources.js";
 import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
 import { isStopped, type Workshop } from "./workshop.js";
@@ -44,7 +45,11 @@ export class Mapping {
 
     /** Maps onto another shape of the gallery's class. */
     chooseShape(shape: Shape): void {
-        this.choose({ title: shape.title, shape: shape.id, open: () => shape.open() });
+        this.choose({
+            title: shape.title,
+            saved: { shape: shape.id },
+            open: () => shape.open(),
+        });
     }
 
     /** Maps onto a mesh with a landmark file, or without one: by proximity. */
@@ -61,12 +66,19 @@ export class Mapping {
         });
         this.choose({
             title: mesh.name,
-            shape: null,
+            saved: { files: landmarks ? [mesh, landmarks] : [mesh] },
             open: async () => ({
                 target: await contentOf(mesh),
                 landmarks: landmarks && (await contentOf(landmarks)),
             }),
         });
+    }
+
+    /** The second target of work that was put away. */
+    async restore(saved: SavedSecond): Promise<void> {
+        if ("files" in saved) return this.chooseFiles(saved.files);
+        const shape = (await loadShapes()).find(({ id }) => id === saved.shape);
+        if (shape) this.chooseShape(shape);
     }
 
     setTexture(texture: Texture): void {

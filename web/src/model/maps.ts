@@ -7,12 +7,12 @@ import type {
     TargetInfo,
 } from "layout-embedding";
 import type { Correspondence, FacePoint, Side } from "./correspondence.js";
+import type { SavedSecond } from "./sources.js";
 
 /** A second target for the layout. */
 export interface OtherTarget {
     readonly title: string;
-    /** The gallery's shape that it is; null for a file. */
-    readonly shape: string | null;
+    readonly saved: SavedSecond;
     readonly open: () => Promise<{
         readonly target: MeshInput;
         /** Null: by proximity. */

@@ -1,7 +1,7 @@
 // A session as one zip file: layout and target as they were given, and session.json for the rest.
 import { strFromU8, strToU8, unzipSync } from "fflate";
 import type { MeshArrays, MeshFile } from "layout-embedding";
-import type { SavedWork, Source } from "./sources.js";
+import type { SavedSecond, SavedWork, Source } from "./sources.js";
 import type { Landmarks } from "./landmarks.js";
 import type { RouteRule } from "./routes.js";
 import { initialState } from "./state.js";
@@ -21,6 +21,10 @@ interface SessionDocument {
     readonly origin: SavedWork["origin"];
     /** Left out in sessions of earlier versions of the page. */
     readonly routes?: readonly RouteRule[];
+    readonly second?:
+        | { readonly shape: string }
+        | { readonly files: readonly { readonly name: string; readonly file: string }[] }
+        | null;
     readonly solved: boolean;
 }
 
@@ -35,6 +39,16 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         files[file] = await bytesOf(source);
         return { name, file };
     };
+    const packSecond = async () => {
+        const { second } = work;
+        if (!second || "shape" in second) return second;
+        const packed = [];
+        for (const [place, file] of second.files.entries()) {
+            const entry = await pack(place === 0 ? "second" : "second_landmarks", file);
+            if (entry) packed.push(entry);
+        }
+        return { files: packed };
+    };
     const { landmarks, making, quads, repair, options, origin, routes, solved } = work;
     const document: SessionDocument = {
         version,
@@ -47,6 +61,7 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         options,
         origin,
         routes,
+        second: await packSecond(),
         solved,
     };
     return { [description]: strToU8(JSON.stringify(document, null, 1)), ...files };
@@ -77,6 +92,19 @@ export function unpackSession(name: string, bytes: Uint8Array): SavedWork {
         if (!content) throw broken(`${entry.file} is missing`);
         return { name: entry.name, bytes: new Uint8Array(content), ...formatOf(entry) };
     };
+    const unpackSecond = (): SavedSecond | null => {
+        const { second } = document;
+        if (!second) return null;
+        if ("shape" in second) return { shape: String(second.shape) };
+        if (!isList(second.files)) throw broken("its second target is damaged");
+        return {
+            files: second.files.map(({ name: given, file }) => {
+                const content = files[file];
+                if (!content) throw broken(`${file} is missing`);
+                return new File([new Uint8Array(content)], given);
+            }),
+        };
+    };
     return {
         layout: unpack(document.layout),
         target: unpack(document.target),
@@ -87,6 +115,7 @@ export function unpackSession(name: string, bytes: Uint8Array): SavedWork {
         options: { ...initialState.options, ...document.options },
         origin: document.origin ?? null,
         routes: checkedRoutes(document.routes, broken),
+        second: unpackSecond(),
         solved: document.solved === true,
     };
 }

@@ -8,6 +8,9 @@ import type { AppState, Origin } from "./state.js";
 export type Source = File | MeshInput;
 export type Role = "layout" | "target";
 
+/** A second target, to be opened again: a shape of the gallery, or a mesh and maybe landmarks. */
+export type SavedSecond = { readonly shape: string } | { readonly files: readonly File[] };
+
 /** What can be put away and opened again. */
 export interface SavedWork {
     readonly layout: Source | null;
@@ -19,6 +22,8 @@ export interface SavedWork {
     readonly options: AppState["options"];
     readonly origin: Origin | null;
     readonly routes: readonly RouteRule[];
+    /** What the target is mapped to. */
+    readonly second: SavedSecond | null;
     /** Whether there was an embedding: then it is looked for again. */
     readonly solved: boolean;
 }

@@ -12,7 +12,7 @@ const slot = "last";
 /** Milliseconds without a change after which the work is put away. */
 const calm = 500;
 
-type Meshes = Pick<SavedWork, "layout" | "target">;
+type Meshes = Pick<SavedWork, "layout" | "target" | "second">;
 type Rest = Omit<SavedWork, keyof Meshes>;
 
 /** Session files, and the copy of the last work in this browser. */
@@ -39,9 +39,9 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
             shelves.put({ [slot]: null, [meshSlot]: null });
             return;
         }
-        const { layout, target, ...rest } = actions.saved();
-        const known = kept?.layout === layout && kept.target === target;
-        kept = { layout, target };
+        const { layout, target, second, ...rest } = actions.saved();
+        const known = kept?.layout === layout && kept.target === target && kept.second === second;
+        kept = { layout, target, second };
         shelves.put({ [slot]: rest, ...(known ? {} : { [meshSlot]: kept }) });
     };
     return {
@@ -61,8 +61,9 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
                 shelves.get<Meshes>(meshSlot),
             ]);
             if (!rest || !meshes?.target) return false;
-            // What an earlier version of the page put away has no rules for routes.
-            await actions.restore({ ...rest, ...meshes, routes: rest.routes ?? [] });
+            // An earlier version of the page put less away.
+            const [routes, second] = [rest.routes ?? [], meshes.second ?? null];
+            await actions.restore({ ...rest, ...meshes, routes, second });
             actions.notice("This is what was open at your last visit. The gallery has examples.");
             return store.get().target !== null;
         },
@@ -75,6 +76,7 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
                     state.options,
                     state.making,
                     state.routes,
+                    state.map.other,
                     state.result !== null,
                 ],
                 () => {

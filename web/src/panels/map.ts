@@ -9,6 +9,7 @@ import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { create, download, element, figureRows, setText } from "./dom.js";
 import { zipped } from "./downloads.js";
+import { tabWords } from "./tabs.js";
 
 const textureNames: Record<Texture, string> = {
     grid: "Colours and a grid",
@@ -126,20 +127,13 @@ function progressOf(store: Store<AppState>, actions: Actions): void {
     });
     store.watch(
         (state) => [state.map, state.result, state.activity?.phase],
-        (map, result, phase) => {
-            const solved = result?.refined !== null && result !== null;
-            setText(
-                "map-status",
-                solved
-                    ? stateWords(map)
-                    : phase
-                      ? `${phase} …`
-                      : "A map needs an embedding in the first target: solve first.",
-            );
+        (map, result, ..._others) => {
+            const missing = "A map needs an embedding in the first target: solve first.";
+            setText("map-status", tabWords(store.get(), stateWords(map), missing));
             running.hidden = map.phase === null;
             if (map.progress === null) bar.removeAttribute("value");
             else bar.value = map.progress;
-            again.hidden = !solved || !map.other || map.phase !== null || map.isOptimised;
+            again.hidden = !result?.refined || !map.other || map.phase !== null || map.isOptimised;
         },
     );
 }

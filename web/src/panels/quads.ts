@@ -5,6 +5,7 @@ import { loopGroups, usualEdgeLength, type LoopGroup, type QuadState } from "../
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { create, download, element, figureRows, setText } from "./dom.js";
+import { tabWords } from "./tabs.js";
 
 /** Settings and figures of the quad mesh that the target's view shows. */
 export function quadsPanel(store: Store<AppState>, actions: Actions): void {
@@ -42,16 +43,9 @@ export function quadsPanel(store: Store<AppState>, actions: Actions): void {
     });
     store.watch(
         (state) => [state.quadMesh, state.result, state.activity?.phase],
-        (quads, result, phase) => {
-            const solved = result?.refined !== null && result !== null;
-            setText(
-                "quads-status",
-                solved
-                    ? stateWords(quads)
-                    : phase
-                      ? `${phase} …`
-                      : "Quads need an embedding: solve first.",
-            );
+        (quads, ..._others) => {
+            const missing = "Quads need an embedding: solve first.";
+            setText("quads-status", tabWords(store.get(), stateWords(quads), missing));
             element("quads-running", HTMLElement).hidden = quads.phase === null;
             save.disabled = !quads.mesh;
         },

@@ -5,6 +5,12 @@ import { element } from "./dom.js";
 
 const tabs: readonly Tab[] = ["embedding", "quads", "map"];
 
+/** What a tab has to say: its own words, or what it waits for while there is no embedding. */
+export function tabWords({ result, activity }: AppState, own: string, missing: string): string {
+    if (result?.refined) return own;
+    return activity ? `${activity.phase} …` : missing;
+}
+
 /** The tabs above the controls: arrow keys go from one to the next, as everywhere. */
 export function tabList(store: Store<AppState>, actions: Actions): void {
     const buttons = tabs.map((tab) => element(`tab-${tab}`, HTMLButtonElement));

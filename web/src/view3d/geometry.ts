@@ -15,6 +15,7 @@ import type {
     RefinedMesh,
     TargetInfo,
 } from "layout-embedding";
+import { groupsOf, membersOf, type Groups } from "../model/groups.js";
 
 /** Area-weighted unit normals of a triangle mesh. */
 export function vertexNormals(
@@ -184,22 +185,13 @@ export function patchAreas(refined: RefinedMesh, patchCount: number): Float64Arr
 
 /** Finds the patch at a point of a target face. */
 export class PatchFinder {
-    private readonly offsets: Uint32Array;
-    private readonly triangles: Uint32Array;
+    private readonly triangles: Groups;
 
     constructor(
         private readonly refined: RefinedMesh,
         faceCount: number,
     ) {
-        const { triangleFaces } = refined;
-        this.offsets = new Uint32Array(faceCount + 1);
-        for (const face of triangleFaces) this.offsets[face + 1]! += 1;
-        for (let f = 0; f < faceCount; ++f) this.offsets[f + 1]! += this.offsets[f]!;
-        this.triangles = new Uint32Array(triangleFaces.length);
-        const filled = this.offsets.slice();
-        triangleFaces.forEach((face, t) => {
-            this.triangles[filled[face]!++] = t;
-        });
+        this.triangles = groupsOf(refined.triangleFaces, faceCount);
     }
 
     /** The layout face; -1 outside all of them. */
@@ -209,7 +201,7 @@ export class PatchFinder {
             new Vector3().fromArray(positions, 3 * corners[3 * t + i]!);
         let best = -1;
         let bestShare = -Infinity;
-        for (const t of this.triangles.subarray(this.offsets[face], this.offsets[face + 1])) {
+        for (const t of membersOf(this.triangles, face)) {
             const [a, b, c] = [corner(t, 0), corner(t, 1), corner(t, 2)];
             const at = Triangle.getBarycoord(point, a, b, c, new Vector3());
             const share = at ? Math.min(at.x, at.y, at.z) : -Infinity;
