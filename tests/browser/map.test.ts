@@ -88,6 +88,11 @@ test("a_texture_is_drawn_on_both_targets", async () => {
     }
     expect(new Set(seen).size).toBe(4);
     await page.selectOption("#texture", "grid");
+    // Both are on the picture.
+    const png = await downloaded(page, () => page.click('[data-picture="map.png"]'));
+    const widthOf = async (view: string) => (await page.locator(view).boundingBox())?.width ?? 0;
+    const widths = (await widthOf("#target-view canvas")) + (await widthOf("#map-view canvas"));
+    expect(Math.abs(png.readUInt32BE(16) - widths)).toBeLessThan(3);
 });
 
 test("a_vertex_and_its_image_are_shown_by_number_by_key_and_under_the_pointer", async () => {

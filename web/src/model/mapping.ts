@@ -39,6 +39,8 @@ export class Mapping {
                 if (map.of !== result && map.map) this.forgetMap();
                 if (shown && result?.refined && map.other && map.of !== result) this.refresh();
                 else if (!result) this.stop();
+                // Nobody waits for it: its memory goes back.
+                if (!shown && !result) this.workshop.stop();
             },
         );
     }

@@ -37,6 +37,8 @@ export class QuadPreview {
                     this.update({ mesh: null, of: null, isRelaxed: false });
                 if (shown && (quadMesh.of !== result || !quadMesh.isRelaxed)) this.refresh();
                 else if (!result) this.stop();
+                // Nobody waits for it: its memory goes back.
+                if (!shown && !result) this.workshop.stop();
             },
         );
     }

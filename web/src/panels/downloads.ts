@@ -54,7 +54,13 @@ export function downloadsPanel(
         if (layout && "corners" in layout) files["layout.obj"] = objOf(layout);
         download("embedding.zip", await zipped(files));
     });
-    onClick("screenshot", async () => download("embedding.png", await screenshot()));
+    for (const button of document.querySelectorAll<HTMLButtonElement>("button[data-picture]"))
+        button.addEventListener("click", () => {
+            screenshot().then(
+                (picture) => download(button.dataset["picture"]!, picture),
+                (error: unknown) => actions.report(error),
+            );
+        });
     const session = onClick("save-session", async () =>
         download("session.zip", await zipped(await packSession(actions.saved()))),
     );

@@ -16,6 +16,7 @@ import type { Store } from "../model/store.js";
 import { chainPaths } from "../view3d/geometry.js";
 import { LayoutView } from "../view3d/layout_view.js";
 import type { MeshView, Sighting } from "../view3d/mesh_view.js";
+import { pictureOf } from "../view3d/picture.js";
 import { TargetView } from "../view3d/target_view.js";
 import { element, setText } from "./dom.js";
 import { mapStage, shownMap } from "./map_stage.js";
@@ -183,7 +184,9 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
             main.classList.toggle("comparing", two);
         },
     );
+    let secondView: TargetView | null = null;
     mapStage(store, actions, targetView, (view) => {
+        secondView = view;
         views.push(view);
         link(views, store);
         const { display } = store.get();
@@ -245,7 +248,11 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
             editor.startPlacing(null);
             actions.select(null);
         },
-        screenshot: () => targetView.viewer.screenshot(),
+        screenshot: () => {
+            const { tab } = store.get();
+            const seen = tab === "map" && secondView ? [targetView, secondView] : [targetView];
+            return pictureOf(seen.map(({ viewer }) => viewer));
+        },
     };
 
     function checkbox(

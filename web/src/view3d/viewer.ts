@@ -17,6 +17,16 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
+/** A canvas as a PNG. */
+export function pngOf(canvas: HTMLCanvasElement): Promise<Blob> {
+    return new Promise((resolve, reject) => {
+        canvas.toBlob((blob) => {
+            if (blob) resolve(blob);
+            else reject(new Error("the picture could not be encoded"));
+        }, "image/png");
+    });
+}
+
 /** Where a camera stands, independent of what it looks at. */
 export interface Pose {
     /** Unit vector from the centre of attention to the eye. */
@@ -181,15 +191,10 @@ export class Viewer {
     }
 
     /** The picture as a PNG. */
-    async screenshot(): Promise<Blob> {
+    screenshot(): Promise<Blob> {
         // The drawing buffer is only readable right after drawing.
         this.render();
-        return new Promise((resolve, reject) => {
-            this.canvas.toBlob((blob) => {
-                if (blob) resolve(blob);
-                else reject(new Error("the picture could not be encoded"));
-            }, "image/png");
-        });
+        return pngOf(this.canvas);
     }
 
     /** Frames drawn so far: shows in tests that nothing is drawn in a loop. */
