@@ -4,7 +4,7 @@ import { problemFiles, runTool } from "./native.mjs";
 import { generatedShapes, readMember, shippedShapes } from "./problems.mjs";
 import { claimsOf, judge } from "./report/claims.mjs";
 import { plot } from "./report/plot.mjs";
-import { count, figure, findings, percent, seconds, table } from "./report/html.mjs";
+import { count, figure, findings, integer, percent, seconds, table } from "./report/html.mjs";
 import { openSession, withoutHistory } from "./solving.mjs";
 
 export const title = "What the features of branch and bound contribute (Fig. 12)";
@@ -124,8 +124,8 @@ export function section(data) {
                 name,
                 `${timesOf(data, i).filter(Number.isFinite).length}`,
                 seconds(total(i, "cpu")),
-                `${total(i, "states")}`,
-                `${total(i, "searches")}`,
+                integer(total(i, "states")),
+                integer(total(i, "searches")),
             ]),
             "The memory of searches, which all lines but one have, answers questions for shortest paths from what earlier searches have met; bounds from pairs add what two edges in conflict cost together. The paper has neither.",
         ),

@@ -13,7 +13,7 @@ export const tools = (quick) => (quick ? [] : ["generate_shapes"]);
 
 export async function run({ pool, quick }) {
     const classes = quick ? shippedShapes() : await generatedShapes();
-    const limit = quick ? 4_000_000 : 10_000_000;
+    const limit = quick ? 4_000_000 : 12_000_000;
     const inputs = classes.flatMap(({ name, title: shown, genus, boundaryLoops, members }) =>
         members.slice(1).map((target) => ({
             name,

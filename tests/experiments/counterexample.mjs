@@ -6,7 +6,7 @@ import { problemFiles, runTool } from "./native.mjs";
 import { cross, normalized } from "../bench/vectors.mjs";
 import { embeddingPicture } from "./drawing/picture.mjs";
 import { claimsOf, judge } from "./report/claims.mjs";
-import { findings, number, percent, picture, pictures, table } from "./report/html.mjs";
+import { findings, integer, number, percent, picture, pictures, table } from "./report/html.mjs";
 import { openSession, solveAndRecord } from "./solving.mjs";
 
 export const title = "Where no insertion sequence is optimal (inset of Sec. 6)";
@@ -126,7 +126,7 @@ export function section({ drawn, compared }) {
     return [
         findings(
             "For general graphs there are optimal embeddings that no insertion sequence produces [CHKL13]. None of the known examples is a layout with prescribed cyclic orders around its vertices; whether one exists is left open.",
-            `It exists. For a triangular prism on a sphere, with cyclic orders, the best insertion sequence is ${percent(Math.min(...ratios) - 1, 1)} to ${percent(Math.max(...ratios) - 1, 1)} longer than the optimum, on spheres of ${compared[0].triangles} to ${compared.at(-1).triangles} triangles. On ${enumerated.length === 1 ? "one of them" : `${enumerated.length} of them`} all ${enumerated[0].orders} orders of insertion were tried.`,
+            `It exists. For a triangular prism on a sphere, with cyclic orders, the best insertion sequence is ${percent(Math.min(...ratios) - 1, 1)} to ${percent(Math.max(...ratios) - 1, 1)} longer than the optimum, on spheres of ${integer(compared[0].triangles)} to ${integer(compared.at(-1).triangles)} triangles. On ${enumerated.length === 1 ? "one of them" : `${enumerated.length} of them`} all ${integer(enumerated[0].orders)} orders of insertion were tried.`,
         ),
         `<h3>General graphs</h3>`,
         flat.svg,

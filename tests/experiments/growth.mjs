@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import path from "node:path";
 import { claimsOf, judge } from "./report/claims.mjs";
 import { colours, plot } from "./report/plot.mjs";
-import { findings, number, percent, seconds, table } from "./report/html.mjs";
+import { findings, integer, number, percent, seconds, table } from "./report/html.mjs";
 import { openSession, solveAndRecord, withoutHistory } from "./solving.mjs";
 
 export const title = "Growth with the size of target and layout; memory";
@@ -82,7 +82,7 @@ export function section({ rows, workLimit: limit }) {
     return [
         findings(
             "Memory of queue, hash table and path cache never exceeds 188 MB in all examples. Growth with the size of inputs is not reported.",
-            `Layouts from hulls of random points on bumpy spheres, landmarks displaced, tolerance 1 %, at most ${limit / 1e6} million units of work. A target of ${largest.size} triangles takes ${seconds(largest.cpuTotal)} CPU and ${number(largest.peakMegabytes, 0)} MB in all, mesh and result included; targets up to 50 000 triangles take at most ${number(smallMost, 0)} MB.`,
+            `Layouts from hulls of random points on bumpy spheres, landmarks displaced, tolerance 1 %, at most ${limit / 1e6} million units of work. A target of ${integer(largest.size)} triangles takes ${seconds(largest.cpuTotal)} CPU and ${number(largest.peakMegabytes, 0)} MB in all, mesh and result included; targets up to 50 000 triangles take at most ${number(smallMost, 0)} MB.`,
         ),
         `<div class="multiples">${chart("mesh size", "triangles", "CPU seconds", "cpuTotal")}${chart("mesh size", "triangles", "megabytes", "peakMegabytes")}${chart("layout size", "layout vertices", "CPU seconds", "cpuTotal")}</div>`,
         table(

@@ -5,7 +5,7 @@ import { problemFiles, runTool } from "./native.mjs";
 import { insertionPicture, embeddingPicture, viewOfEdges } from "./drawing/picture.mjs";
 import { claimsOf, judge } from "./report/claims.mjs";
 import { colours, plot } from "./report/plot.mjs";
-import { figure, findings, number, percent, picture, pictures } from "./report/html.mjs";
+import { figure, findings, integer, number, percent, picture, pictures } from "./report/html.mjs";
 import { openSession, solveAndRecord } from "./solving.mjs";
 
 export const title = "Homotopy classes, and the order of insertion (Figs. 2 and 4)";
@@ -119,8 +119,6 @@ function quantile(embeddings, share) {
     let sum = 0;
     return embeddings.find(({ orders }) => (sum += orders) >= share * total);
 }
-
-const integer = (value) => value.toLocaleString("en").replaceAll(",", " ");
 
 export function section({ classes, orders }) {
     const complete = orders.total - orders.blocked;

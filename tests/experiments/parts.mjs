@@ -27,7 +27,7 @@ const variants = [
 
 function problems(quick) {
     const n = quick ? 12 : 24;
-    const cubes = (quick ? [2] : [1, 2, 3, 4]).map((seed) => ({
+    const cubes = (quick ? [2] : [1, 2, 3, 4, 5, 6]).map((seed) => ({
         name: `cube, random landmarks ${seed}`,
         make: () => sphereProblem(cube, n, seed),
     }));

@@ -26,9 +26,10 @@ const views = [
         [-0.9, 0.2, 0.1],
         [0.55, 0.25, -0.8],
         [-0.55, 0.25, -0.8],
-        [0.1, -0.9, 0.3],
     ].map((direction) => ({ direction, up: [0, 1, 0] })),
-    { direction: [0.1, 0.95, 0.3], up: [0, 0, -1] },
+    // Unusual, only where they show much more.
+    { direction: [0.1, -0.9, 0.3], up: [0, 1, 0], weight: 0.6 },
+    { direction: [0.1, 0.95, 0.3], up: [0, 0, -1], weight: 0.6 },
 ];
 
 function write(name, raster) {
@@ -71,6 +72,7 @@ export function viewOfEdges(result, edges) {
         for (const edge of edges) {
             seen += raster.line(chainPoints(refined, result.edges[edge].chain), red, 1);
         }
+        seen *= view.weight ?? 1;
         if (seen > 1.15 * most) {
             best = view;
             most = seen;

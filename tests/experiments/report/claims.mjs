@@ -10,17 +10,33 @@ const verdicts = {
 };
 
 /**
- * A claim: { section, paper, rule, found, verdict }, all but the verdict HTML. `confirmed`: found
- * as the paper has it; `passed`: better; `missed`: not reached; `open`: not tried in this run.
+ * The claims of all experiments by section: { name, section, paper, rule, found, verdict }, all but name
+ * and verdict HTML. `confirmed`: found as the paper has it; `passed`: better; `missed`: not reached;
+ * `open`: not tried in this run.
  */
-export function claimsTable(experiments, results) {
-    const rows = experiments
+export function judgedClaims(experiments, results) {
+    return experiments
         .filter(({ experiment }) => experiment.claims !== undefined)
         .flatMap(({ name, experiment }) => {
             const claims = experiment.claims(results[name]?.data ?? null);
             return claims.map((claim) => ({ ...claim, name }));
         })
         .sort((a, b) => a.section.localeCompare(b.section, "en", { numeric: true }));
+}
+
+/** How many claims got each verdict, as a sentence. */
+export function claimsInBrief(claims) {
+    const counts = Object.keys(verdicts).map((verdict) => ({
+        verdict,
+        count: claims.filter((claim) => claim.verdict === verdict).length,
+    }));
+    const parts = counts
+        .filter(({ count }) => count > 0)
+        .map(({ verdict, count }) => `<b class="${verdict}">${count} ${verdicts[verdict]}</b>`);
+    return `Of ${claims.length} claims of the paper: ${parts.join(", ")}.`;
+}
+
+export function claimsTable(rows) {
     const body = rows.map(
         ({ section, paper, rule, found, verdict, name }) =>
             `<tr><td>${escape(section)}</td><td>${paper}</td><td>${rule}</td><td>${verdict === "open" ? "" : `${found} <a href="#${name}" aria-label="the experiment">↑</a>`}</td><td class="verdict ${verdict}">${verdicts[verdict]}</td></tr>`,

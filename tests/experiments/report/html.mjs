@@ -23,13 +23,15 @@ export function picture({ file, width, height }, caption, alt = caption) {
 }
 
 export function pictures(list) {
-    return `<div class="pictures">${list.join("")}</div>`;
+    // Five fit into a row as well.
+    const least = list.length === 5 ? 185 : 230;
+    return `<div class="pictures" style="--least:${least}px">${list.join("")}</div>`;
 }
 
 /** Cells are text; numbers go to the right. */
 export function table(head, rows, note = "") {
     const cell = (value) =>
-        typeof value === "number" || /^[-−+]?[\d.,]+( ?%| s)?$|^–$/.test(value)
+        typeof value === "number" || /^[-−+]?[\d., ]+( ?[%°]| s)?$|^–$/.test(value)
             ? `<td class="number">${escape(value)}</td>`
             : `<td>${escape(value)}</td>`;
     const body = rows.map((row) => `<tr>${row.map(cell).join("")}</tr>`);
@@ -61,6 +63,11 @@ export function seconds(value) {
     return value === null || !Number.isFinite(value)
         ? "–"
         : `${value < 10 ? value.toPrecision(2) : value.toFixed(0)} s`;
+}
+
+/** A whole number, digits in groups of three. */
+export function integer(value) {
+    return value.toLocaleString("en").replaceAll(",", " ");
 }
 
 /** "1 instance", "2 instances". */

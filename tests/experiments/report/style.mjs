@@ -22,7 +22,7 @@ td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: 
 .findings p { margin: 0; }
 figure { margin: 0; }
 figure.block { margin: 1.2em 0; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(230px, 46%), 1fr)); gap: 12px; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(var(--least), 46%), 1fr)); gap: 12px; }
 .picture img { width: 100%; height: auto; display: block; }
 .plot { width: 100%; min-width: 480px; height: auto; display: block; }
 .plot text { font: 12px system-ui, sans-serif; fill: #33333b; }
