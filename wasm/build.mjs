@@ -1,9 +1,11 @@
-// Compiles the TypeScript to dist/ and puts core.wasm, built by CMake's wasm preset, beside it.
+// Compiles the TypeScript to dist/ and puts core.wasm, built by CMake's wasm preset, beside it, as it
+// is and as text in a module.
 import { spawnSync } from "node:child_process";
-import { chmodSync, copyFileSync, existsSync, rmSync } from "node:fs";
+import { chmodSync, copyFileSync, existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 const core = path.join(here, "../build/wasm/wasm/core.wasm");
@@ -18,6 +20,8 @@ if (status !== 0) {
     process.exit(status ?? 1);
 }
 copyFileSync(core, path.join(here, "dist/core.wasm"));
+const text = gzipSync(readFileSync(core), { level: 9 }).toString("base64");
+writeFileSync(path.join(here, "dist/core_base64.js"), `export const gzippedCore = "${text}";\n`);
 chmodSync(path.join(here, "dist/cli.js"), 0o755);
 // npm packs only what lies in the package's own folder.
 copyFileSync(path.join(here, "../LICENSE"), path.join(here, "LICENSE"));

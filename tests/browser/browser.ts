@@ -4,10 +4,10 @@ import { readFile } from "node:fs/promises";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, inject, vi } from "vitest";
 
-const executablePath = process.env["CHROMIUM"] ?? "/usr/bin/chromium";
+export const executablePath = process.env["CHROMIUM"] ?? "/usr/bin/chromium";
 
 /** Without a graphics card, and without the browser's own requests. */
-const args = [
+export const browserArguments = [
     "--headless",
     "--no-sandbox",
     "--use-gl=angle",
@@ -43,7 +43,7 @@ export function useBrowser(): (options?: OpenOptions) => Promise<OpenPage> {
     vi.setConfig({ testTimeout: 2 * patience, hookTimeout: patience });
     let browser: Browser;
     beforeAll(async () => {
-        browser = await chromium.launch({ executablePath, args });
+        browser = await chromium.launch({ executablePath, args: browserArguments });
     });
     afterAll(() => browser.close());
     return async ({ link, ...options } = {}) => {
