@@ -5,7 +5,8 @@ body { margin: 0; background: #fff; color: #1c1c22; font: 16px/1.55 system-ui, s
 main { max-width: 1080px; margin: 0 auto; padding: 24px 20px 80px; }
 h1 { font-size: 1.9rem; line-height: 1.2; margin: 0.4em 0; }
 h2 { font-size: 1.4rem; margin: 2.6em 0 0.5em; padding-top: 0.5em; border-top: 2px solid #d9d9e0; }
-h3 { font-size: 1rem; margin: 0 0 0.2em; }
+h3 { font-size: 1rem; margin: 1.2em 0 0.2em; }
+.findings h3 { margin-top: 0; }
 p { max-width: 76ch; margin: 0.6em 0; }
 a { color: #0b5fa5; }
 .lead { font-size: 1.08rem; }
