@@ -28,6 +28,8 @@ await main(async () => {
               ["clang-format", ["--dry-run", "-Werror", ...cpp]],
               node(tool("prettier/bin/prettier.cjs"), "--check", "--log-level=warn", "."),
               node(tool("eslint/bin/eslint.js"), "."),
+              // What `npm run docs` would complain of.
+              node(tool("typedoc/bin/typedoc"), "--emit", "none", "--logLevel", "Warn"),
           ];
     let failed = 0;
     const check = async (command, args) => {

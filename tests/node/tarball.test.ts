@@ -44,6 +44,7 @@ async function runScript(script: string, { cwd = user, stderr = /^$/ } = {}): Pr
 test("the_tarball_is_small_and_holds_nothing_else", () => {
     expect(statSync(tarball).size).toBeLessThan(1_500_000);
     expect(readdirSync(path.join(user, "node_modules/layout-embedding")).sort()).toEqual([
+        "ERRORS.md",
         "LICENSE",
         "README.md",
         "dist",

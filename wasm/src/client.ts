@@ -48,6 +48,7 @@ export { LayoutError } from "./errors.js";
 export { mapFiles } from "./map_files.js";
 export type * from "./types.js";
 
+/** How a worker is started. */
 export interface WorkerOptions {
     /** Where core.wasm comes from: an address, its bytes, or compiled. Default: beside this file. */
     wasm?: string | URL | ArrayBuffer | Uint8Array | WebAssembly.Module;
@@ -75,6 +76,10 @@ export function createWorkerClient(options: WorkerOptions = {}): Promise<Embeddi
     return EmbeddingWorker.create(options);
 }
 
+/**
+ * The functions and sessions of the package, in a worker of their own. Errors arrive as LayoutErrors;
+ * a worker that is stopped from outside rejects what is pending with workerFailed.
+ */
 export class EmbeddingWorker {
     private readonly pending = new Map<number, Pending>();
     private port: Port | null = null;
@@ -386,6 +391,10 @@ async function openPort(events: PortEvents): Promise<Port> {
     thread.on("message", events.onReply);
     thread.on("error", (error: Error) => {
         events.onFailure(error.message);
+    });
+    // Whoever else ends it. After terminate() nothing is pending any more.
+    thread.on("exit", (code: number) => {
+        events.onFailure(`its thread ended with code ${String(code)}`);
     });
     return {
         post: (request) => {

@@ -7,6 +7,7 @@ import { javaScriptError, type LayoutError } from "./errors.js";
 export type WasmSource =
     string | URL | ArrayBuffer | Uint8Array | Response | WebAssembly.Module | Promise<Response>;
 
+/** Where the module is loaded from. */
 export interface InitOptions {
     /** Default: `core.wasm` beside this file. */
     wasm?: WasmSource;

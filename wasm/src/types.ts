@@ -25,7 +25,10 @@ export interface MeshFile {
     format?: MeshFormat;
 }
 
+/** A format of mesh files. */
 export type MeshFormat = "obj" | "off" | "ply" | "stl" | "glb";
+
+/** A layout or a target, as a file or as arrays. */
 export type MeshInput = MeshArrays | MeshFile;
 
 /**
@@ -41,6 +44,7 @@ export interface LandmarkFile {
 /** One target vertex id per layout vertex, in the order of the layout's vertices. */
 export type LandmarkInput = ArrayLike<number> | LandmarkFile;
 
+/** How a mesh is read. */
 export interface LoadOptions {
     /**
      * Mends what can be mended safely: exactly coincident vertices are welded, unused vertices and
@@ -99,6 +103,7 @@ export interface TargetInfo {
     notes: Notes;
 }
 
+/** How landmarks are understood. */
 export interface LandmarkOptions {
     /**
      * Whose ids the landmarks are, which matters after a repair: those of the target as it was
@@ -107,6 +112,7 @@ export interface LandmarkOptions {
     numbering?: "given" | "loaded";
 }
 
+/** Landmarks as a session holds them. */
 export interface LandmarksInfo {
     /** Target vertex id (after a repair) per layout vertex. */
     landmarks: Uint32Array;
@@ -115,6 +121,7 @@ export interface LandmarksInfo {
     notes: Notes;
 }
 
+/** How a layout is made of a target. */
 export interface TemplateOptions extends LandmarkOptions {
     /** Merges pairs of triangles into well-shaped quads. Default: triangles only. */
     quads?: boolean;
@@ -175,6 +182,7 @@ export type EmbedStatus =
 /** What a lower bound bounds: every embedding, or only those made by inserting path after path. */
 export type BoundScope = "embeddings" | "insertionSequences";
 
+/** What a job does, in this order. */
 export type EmbedPhase = "prepare" | "search" | "realise" | "check" | "done";
 
 /**
@@ -192,6 +200,7 @@ export interface PathConstraint {
     path: readonly WeakPoint[];
 }
 
+/** How the embedding is looked for, until when, and how that is told. */
 export interface SolveOptions {
     /** Default: exact. */
     algorithm?: Algorithm;
@@ -259,6 +268,7 @@ export interface EmbedProgress {
     paths: Polylines | null;
 }
 
+/** Another phase began, the best embedding improved, the bound rose, or the work went on. */
 export type EmbedEventKind = "phase" | "incumbent" | "bound" | "progress";
 
 /** Something that happened, with the state after it. */
@@ -361,6 +371,7 @@ export interface LandmarkDoubt {
     message: string;
 }
 
+/** What a job has found when it ends, with an embedding or without. */
 export interface EmbedResult {
     status: EmbedStatus;
     /** In the path-graph metric (see the README); Infinity without an embedding. */
@@ -418,6 +429,7 @@ export interface ExportView {
     width?: number;
 }
 
+/** How fine a quad mesh is. */
 export interface QuadOptions {
     /** Wanted length of edges, in the target's units. Default: one that gives about 4000 quads. */
     edgeLength?: number;
@@ -501,6 +513,7 @@ export interface SurfacePoints {
     barycentrics: Float64Array;
 }
 
+/** How long a map is optimised. */
 export interface SurfaceMapOptions {
     /** Rounds of optimisation at most; 0 leaves the maps of the patches as they are. Default: 20. */
     rounds?: number;
@@ -723,6 +736,7 @@ export interface BatchMember {
     load: () => Promise<{ target: MeshInput; landmarks: LandmarkInput }>;
 }
 
+/** What a batch makes, and how. */
 export interface BatchOptions extends LoadOptions {
     solve?: Omit<SolveOptions, "signal" | "onProgress">;
     /** Numbers of segments follow from the reference. */
@@ -788,4 +802,5 @@ export interface EmbedProblem {
     landmarks?: LandmarkInput;
 }
 
+/** The options of one embedding from beginning to end. */
 export interface EmbedOptions extends SolveOptions, LoadOptions {}
