@@ -1,5 +1,5 @@
 // What outlives a visit: sessions as files, the last work in the browser, links.
-import { unzipSync } from "fflate";
+import { strFromU8, strToU8, unzipSync, zipSync } from "fflate";
 import { expect, inject, test } from "vitest";
 import { downloaded, drop, ready, solve, solved, untilStatus, usePage } from "./browser.js";
 import { ball, cube, toObj } from "./meshes.js";
@@ -80,6 +80,51 @@ test("a_session_is_saved_as_a_file_and_opened_again", async () => {
     await page.locator(".problem .cause", { hasText: "broken.zip" }).waitFor();
     await page.getByRole("button", { name: /^Dismiss/ }).click();
     expect(await input()).toEqual(before);
+});
+
+test("of_a_damaged_session_everything_is_opened_that_can_be_read", async () => {
+    const { page } = opened();
+    const before = await input();
+    const session = await downloaded(page, () => page.click("#save-session"));
+    const files = unzipSync(session);
+    const open = async (bytes: Uint8Array, notice: string | null) => {
+        await drop(page, [{ name: "other.obj", text: toObj(ball(3)) }]);
+        await page.waitForFunction(
+            () => document.getElementById("target-name")?.textContent === "other.obj",
+        );
+        const file = { name: "old.zip", mimeType: "application/zip", buffer: Buffer.from(bytes) };
+        await page.setInputFiles("#any-file", file);
+        await page.waitForFunction(
+            () => document.getElementById("target-name")?.textContent !== "other.obj",
+        );
+        if (notice !== null)
+            await page.locator("#notices li", { hasText: `lost are ${notice}.` }).waitFor();
+    };
+
+    // Without the end, where the list of the files is.
+    await open(session.subarray(0, -40), null);
+    await untilStatus(page, solved);
+    expect(await input()).toEqual(before);
+
+    const saved = JSON.parse(strFromU8(files["session.json"]!)) as object;
+    const withDocument = (other: string) => zipSync({ ...files, "session.json": strToU8(other) });
+    await open(withDocument(JSON.stringify({ ...saved, routes: [7] })), "the rules for routes");
+    await untilStatus(page, solved);
+    expect(await input()).toEqual(before);
+
+    await open(withDocument('{ "version": 1, "layo'), "landmarks and options");
+    expect(await page.textContent("#layout-name")).toBe("layout.obj");
+    expect(await page.textContent("#target-name")).toBe("target.obj");
+
+    // Without the layout one is made of the landmarks.
+    const { "layout.obj": _, ...others } = files;
+    await open(zipSync(others), "the layout");
+    await page.waitForFunction(
+        (name) => document.getElementById("landmarks-name")?.textContent === name,
+        before.landmarks,
+    );
+    expect(await page.textContent("#target-name")).toBe(before.target);
+    expect(await page.textContent("#layout-caption")).toMatch(/^8 vertices/);
 });
 
 test("a_link_opens_a_shape_with_its_settings", async () => {

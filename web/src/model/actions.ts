@@ -152,8 +152,10 @@ export class Actions {
                 making: saved.making,
                 routes: [],
             });
-            if (saved.target && !(await this.load("target", saved.target))) return;
-            if (saved.layout && !(await this.load("layout", saved.layout))) return;
+            // Either is of use without the other.
+            const isTarget = !saved.target || (await this.load("target", saved.target));
+            const isLayout = !saved.layout || (await this.load("layout", saved.layout));
+            if (!isTarget || !isLayout) return;
             if (saved.landmarks) this.store.update({ landmarks: saved.landmarks });
             const { layout, landmarks } = this.store.get();
             if (layout && landmarks)

@@ -1,5 +1,5 @@
 // A session as one zip file: layout and target as they were given, and session.json for the rest.
-import { strFromU8, strToU8, unzipSync } from "fflate";
+import { strFromU8, strToU8, Unzip, UnzipInflate, unzipSync } from "fflate";
 import type { MeshArrays, MeshFile } from "layout-embedding";
 import type { SavedSecond, SavedWork, Source } from "./sources.js";
 import type { Landmarks } from "./landmarks.js";
@@ -67,56 +67,139 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
     return { [description]: strToU8(JSON.stringify(document, null, 1)), ...files };
 }
 
-/** What a session file holds; throws an Error for people where it is none. */
-export function unpackSession(name: string, bytes: Uint8Array): SavedWork {
+/** What could be read of a session file. */
+export interface UnpackedSession {
+    readonly work: SavedWork;
+    /** What could not, for people; empty for a sound file. */
+    readonly lost: readonly string[];
+}
+
+/**
+ * What a session file holds. Damage to a part of it leaves the others as they are; where there is no
+ * mesh, throws an Error for people.
+ */
+export function unpackSession(name: string, bytes: Uint8Array): UnpackedSession {
     const broken = (why: string) =>
         new Error(`${name} is not a session of this page (${why}); choose another file.`);
-    let files: Record<string, Uint8Array>;
-    try {
-        files = unzipSync(bytes);
-    } catch {
-        throw broken("it cannot be unpacked");
-    }
-    const text = files[description];
-    if (!text) throw broken(`it holds no ${description}`);
-    let document: SessionDocument;
-    try {
-        document = JSON.parse(strFromU8(text)) as SessionDocument;
-    } catch {
-        throw broken(`its ${description} is no JSON`);
-    }
-    if (document.version !== version) throw broken("its version is unknown");
-    const unpack = (entry: SessionDocument["layout"]): MeshFile | null => {
-        if (!entry) return null;
-        const content = files[entry.file];
-        if (!content) throw broken(`${entry.file} is missing`);
-        return { name: entry.name, bytes: new Uint8Array(content), ...formatOf(entry) };
+    const files = readableFiles(bytes);
+    if (Object.keys(files).length === 0) throw broken("it cannot be unpacked");
+    const lost: string[] = [];
+    const document = documentIn(files, broken, lost);
+    /** A part, or `otherwise` where it is damaged. */
+    const part = <T>(what: string, otherwise: T, read: () => T): T => {
+        try {
+            return read();
+        } catch {
+            lost.push(what);
+            return otherwise;
+        }
     };
-    const unpackSecond = (): SavedSecond | null => {
-        const { second } = document;
-        if (!second) return null;
-        if ("shape" in second) return { shape: String(second.shape) };
-        if (!isList(second.files)) throw broken("its second target is damaged");
-        return {
-            files: second.files.map(({ name: given, file }) => {
-                const content = files[file];
-                if (!content) throw broken(`${file} is missing`);
-                return new File([new Uint8Array(content)], given);
-            }),
-        };
-    };
-    return {
-        layout: unpack(document.layout),
-        target: unpack(document.target),
-        landmarks: checkedLandmarks(document.landmarks, broken),
-        making: document.making === true,
+    const unpack = (role: "layout" | "target"): MeshFile | null =>
+        part(`the ${role}`, null, () => {
+            const entry = document[role];
+            if (!entry) return null;
+            const content = contentOf(files, entry.file);
+            return { name: String(entry.name), bytes: content, ...formatOf(entry) };
+        });
+    const target = unpack("target");
+    const layout = unpack("layout");
+    if (!target && !layout) throw broken("there is no mesh in it that could be read");
+    const landmarks = part("the landmarks", null, () => checkedLandmarks(document.landmarks));
+    const work: SavedWork = {
+        layout,
+        target,
+        // Ids mean nothing without their mesh.
+        landmarks: target ? landmarks : null,
+        // Landmarks without their layout can still have one made of them.
+        making: document.making === true || (!layout && landmarks !== null),
         quads: document.quads !== false,
         repair: document.repair === true,
         options: { ...initialState.options, ...document.options },
-        origin: document.origin ?? null,
-        routes: checkedRoutes(document.routes, broken),
-        second: unpackSecond(),
-        solved: document.solved === true,
+        origin: lost.length === 0 ? (document.origin ?? null) : null,
+        routes: part("the rules for routes", [], () => checkedRoutes(document.routes)),
+        second: part("the second target", null, () => secondIn(document.second, files)),
+        solved: document.solved === true && layout !== null && target !== null,
+    };
+    return { work, lost };
+}
+
+/** All files in a zip that are whole, also where its list of them is damaged. */
+function readableFiles(bytes: Uint8Array): Record<string, Uint8Array> {
+    try {
+        return unzipSync(bytes);
+    } catch {
+        // Each file has a header of its own.
+    }
+    const files: Record<string, Uint8Array> = {};
+    const reader = new Unzip((file) => {
+        const pieces: Uint8Array[] = [];
+        file.ondata = (error, data, isLast) => {
+            if (error) return;
+            pieces.push(data);
+            if (isLast) files[file.name] = concatenated(pieces);
+        };
+        file.start();
+    });
+    reader.register(UnzipInflate);
+    try {
+        reader.push(bytes, true);
+    } catch {
+        // What came before the damage is there.
+    }
+    return files;
+}
+
+function concatenated(pieces: readonly Uint8Array[]): Uint8Array {
+    const whole = new Uint8Array(pieces.reduce((sum, { length }) => sum + length, 0));
+    let at = 0;
+    for (const piece of pieces) {
+        whole.set(piece, at);
+        at += piece.length;
+    }
+    return whole;
+}
+
+/** The description, or what the names of the files tell where it is damaged. */
+function documentIn(
+    files: Record<string, Uint8Array>,
+    broken: (why: string) => Error,
+    lost: string[],
+): Partial<SessionDocument> {
+    const text = files[description];
+    let document: Partial<SessionDocument> | null = null;
+    try {
+        document = text ? (JSON.parse(strFromU8(text)) as Partial<SessionDocument> | null) : null;
+    } catch {
+        // Damaged.
+    }
+    if (document) {
+        if (document.version !== version) throw broken("its version is unknown");
+        return document;
+    }
+    const entry = (role: string) => {
+        const file = Object.keys(files).find((name) => name.startsWith(`${role}.`));
+        return file === undefined ? null : { name: file, file };
+    };
+    const found = { layout: entry("layout"), target: entry("target") };
+    if (!found.layout && !found.target) throw broken(`it holds no ${description}`);
+    lost.push("landmarks and options");
+    return found;
+}
+
+function contentOf(files: Record<string, Uint8Array>, name: string): Uint8Array<ArrayBuffer> {
+    const content = files[name];
+    if (!content) throw new Error(`${name} is missing`);
+    return new Uint8Array(content);
+}
+
+function secondIn(
+    second: SessionDocument["second"],
+    files: Record<string, Uint8Array>,
+): SavedSecond | null {
+    if (!second) return null;
+    if ("shape" in second) return { shape: String(second.shape) };
+    return {
+        files: second.files.map(({ name, file }) => new File([contentOf(files, file)], name)),
     };
 }
 
@@ -124,10 +207,7 @@ export function unpackSession(name: string, bytes: Uint8Array): SavedWork {
 const formatOf = ({ file, name }: { file: string; name: string }): Pick<MeshFile, "format"> =>
     file.endsWith(".obj") && !/\.obj$/i.test(name) ? { format: "obj" } : {};
 
-function checkedLandmarks(
-    landmarks: Landmarks | null | undefined,
-    broken: (why: string) => Error,
-): Landmarks | null {
+function checkedLandmarks(landmarks: Landmarks | null | undefined): Landmarks | null {
     if (!landmarks) return null;
     const { places, names, source } = landmarks;
     const valid =
@@ -136,16 +216,13 @@ function checkedLandmarks(
         places.length === names.length &&
         places.every((v) => v === null || (Number.isSafeInteger(v) && v >= 0)) &&
         names.every((text) => typeof text === "string");
-    if (!valid) throw broken("its landmarks are damaged");
+    if (!valid) throw new Error("these are no landmarks");
     return { places, names, source: String(source) };
 }
 
-function checkedRoutes(
-    routes: readonly RouteRule[] | undefined,
-    broken: (why: string) => Error,
-): readonly RouteRule[] {
+function checkedRoutes(routes: readonly RouteRule[] | undefined): readonly RouteRule[] {
     if (routes === undefined) return [];
-    if (!isList(routes) || !routes.every(isRoute)) throw broken("its rules for routes are damaged");
+    if (!isList(routes) || !routes.every(isRoute)) throw new Error("these are no rules");
     return routes;
 }
 

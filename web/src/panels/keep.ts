@@ -50,7 +50,10 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
             if (!session) return actions.openFiles(files);
             try {
                 const bytes = new Uint8Array(await session.arrayBuffer());
-                await actions.restore(unpackSession(session.name, bytes));
+                const { work, lost } = unpackSession(session.name, bytes);
+                await actions.restore(work);
+                if (lost.length > 0)
+                    actions.notice(`${session.name} is damaged; lost are ${lost.join(", ")}.`);
             } catch (error) {
                 actions.report(error);
             }
