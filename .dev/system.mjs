@@ -31,6 +31,7 @@ const needs = {
         chromium: "chromium",
         "fonts-dejavu-core": null,
     },
+    coverage: { llvm: "llvm-cov" },
     lint: { "clang-format": "clang-format" },
     tidy: { "clang-tidy": "clang-tidy", clang: "clang++", "libgtest-dev": null },
 };
