@@ -75,7 +75,7 @@ private:
 
     /// Walks that cross.
     struct Crossings : Exclusions {
-        explicit Crossings(const WalkPool& pool) : pool(pool) {}
+        explicit Crossings(const WalkPool& walks) : pool(walks) {}
         const IndexSet& excluded(Index walk) const override { return pool.crossing(walk); }
         const WalkPool& pool;
     };

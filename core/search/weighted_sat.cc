@@ -193,9 +193,15 @@ WeightedSat::Outcome WeightedSat::take_core()
     }
     for (const Literal l : core_) {
         set_residual(l, residual(l) - weight);
-        const auto more = more_.find(l);
-        if (more != more_.end()) {
-            set_residual(more->second, residual(more->second) + weight);
+        const auto found = counts_.find(l);
+        if (found != counts_.end() &&
+            found->second.number < counters_[found->second.counter].size) {
+            // The next one that holds costs as much again.
+            const Count more{found->second.counter, found->second.number + 1};
+            count_up_to(more.counter, more.number);
+            const Literal next = counters_[more.counter].at_least[more.number - 1];
+            counts_.emplace(next, more);
+            set_residual(next, residual(next) + weight);
         }
     }
     lower_bound_ += weight;
@@ -207,48 +213,65 @@ WeightedSat::Outcome WeightedSat::take_core()
 }
 
 /// One literal of each core is paid for. The second that holds costs as much again, and so on: the
-/// literal "at least so many hold" takes the place of each one paid for.
+/// literal "at least two hold" takes the place of the core.
 void WeightedSat::relax()
 {
     for (std::size_t c = 0; c < cores_.size(); ++c) {
-        const std::vector<Literal> counts = count(cores_[c]);
-        for (std::size_t k = 1; k + 1 < counts.size(); ++k) {
-            more_.emplace(counts[k], counts[k + 1]);
-        }
-        if (counts.size() > 1) {
-            set_residual(counts[1], residual(counts[1]) + core_weights_[c]);
+        if (cores_[c].size() > 1) {
+            const Index counter = add_counter(cores_[c]);
+            count_up_to(counter, 2);
+            const Literal two = counters_[counter].at_least[1];
+            counts_.emplace(two, Count{counter, 2});
+            set_residual(two, residual(two) + core_weights_[c]);
         }
     }
     cores_.clear();
     core_weights_.clear();
 }
 
-/// Literals that hold if at least 1, 2, ... of the given ones do: a totalizer (Bailleux and
-/// Boufkhad 2003), in one direction only.
-std::vector<WeightedSat::Literal> WeightedSat::count(std::span<const Literal> literals)
+Index WeightedSat::add_counter(std::span<const Literal> literals)
 {
+    Counter counter{kNone, kNone, static_cast<Index>(literals.size()), {}};
     if (literals.size() == 1) {
-        return {literals[0]};
+        counter.at_least.push_back(literals[0]);
+    } else {
+        counter.left = add_counter(literals.first(literals.size() / 2));
+        counter.right = add_counter(literals.subspan(literals.size() / 2));
     }
-    const std::size_t half = literals.size() / 2;
-    const std::vector<Literal> left = count(literals.first(half));
-    const std::vector<Literal> right = count(literals.subspan(half));
-    std::vector<Literal> both;
-    for (std::size_t k = 0; k < literals.size(); ++k) {
-        both.push_back(solver_.add_variable());
+    counters_.push_back(std::move(counter));
+    return static_cast<Index>(counters_.size() - 1);
+}
+
+/// Makes the literals "at least 1, 2, ..., `number` hold".
+void WeightedSat::count_up_to(Index counter, Index number)
+{
+    number = std::min(number, counters_[counter].size);
+    if (counters_[counter].at_least.size() >= number) {
+        return;
     }
-    for (std::size_t i = 0; i <= left.size(); ++i) {
-        for (std::size_t j = i == 0 ? 1 : 0; j <= right.size(); ++j) {
-            if (i == 0) {
-                solver_.add_clause({negate(right[j - 1]), both[j - 1]});
-            } else if (j == 0) {
-                solver_.add_clause({negate(left[i - 1]), both[i - 1]});
-            } else {
-                solver_.add_clause({negate(left[i - 1]), negate(right[j - 1]), both[i + j - 1]});
+    count_up_to(counters_[counter].left, number);
+    count_up_to(counters_[counter].right, number);
+    const auto& left = counters_[counters_[counter].left].at_least;
+    const auto& right = counters_[counters_[counter].right].at_least;
+    auto& here = counters_[counter].at_least;
+    while (here.size() < number) {
+        here.push_back(solver_.add_variable());
+        const std::size_t sum = here.size();
+        for (std::size_t i = 0; i <= std::min(sum, left.size()); ++i) {
+            const std::size_t j = sum - i;
+            if (j > right.size()) {
+                continue;
             }
+            clause_.assign(1, here.back());
+            if (i > 0) {
+                clause_.push_back(negate(left[i - 1]));
+            }
+            if (j > 0) {
+                clause_.push_back(negate(right[j - 1]));
+            }
+            solver_.add_clause(clause_);
         }
     }
-    return both;
 }
 
 /// Goes on to lighter literals; false if all are assumed not to hold already.

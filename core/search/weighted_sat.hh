@@ -75,6 +75,20 @@ public:
     std::uint64_t conflict_count() const { return solver_.conflict_count(); }
 
 private:
+    /// Which literals hold if at least 1, 2, ... of certain literals do: a node of a totalizer
+    /// (Bailleux and Boufkhad 2003) that grows as far as it is asked for (Martins et al. 2014).
+    struct Counter {
+        Index left;  // counters; kNone for a single literal
+        Index right;
+        Index size;
+        std::vector<Literal> at_least;
+    };
+    /// "At least so many of a counter's literals hold."
+    struct Count {
+        Index counter;
+        Index number;
+    };
+
     enum class Stage { idle, solving, shrinking, satisfied };
 
     void begin();
@@ -83,7 +97,8 @@ private:
     bool next_to_shrink();
     Outcome take_core();
     void relax();
-    std::vector<Literal> count(std::span<const Literal> literals);
+    Index add_counter(std::span<const Literal> literals);
+    void count_up_to(Index counter, Index number);
     bool descend();
     void forbid();
 
@@ -97,8 +112,10 @@ private:
     bool changed_ = true;                      // since the last assignment was found
     std::vector<std::vector<Literal>> cores_;  // not relaxed yet, with what they cost
     std::vector<Length> core_weights_;
-    std::unordered_map<Literal, Literal> more_;  // "at least k" to "at least k + 1"
+    std::vector<Counter> counters_;
+    std::unordered_map<Literal, Count> counts_;  // of counters that take the place of cores
     std::vector<Literal> core_;
+    std::vector<Literal> clause_;
     std::size_t shrink_next_ = 0;
     std::vector<Literal> assumptions_;
     std::uint64_t core_count_ = 0;
