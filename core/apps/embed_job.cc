@@ -231,6 +231,10 @@ struct EmbedJob::Implementation {
                  ? RepulsiveGuide::estimate_bytes(target.vertex_count(),
                                                   problem.layout->vertex_count())
                  : 0);
+        if (Status possible = check_metric(); !possible) {
+            fail(EmbedStatus::failed, possible.error());
+            return;
+        }
         if (needed > options.memory_limit) {
             fail(EmbedStatus::memory_limit,
                  make_error(ErrorCode::memoryLimit,
@@ -247,11 +251,39 @@ struct EmbedJob::Implementation {
         }
     }
 
+    Status check_metric() const
+    {
+        const auto& [costs, discount] = options.metric;
+        const Index vertices = problem.target->vertex_count();
+        if (!costs.empty() && costs.size() != vertices) {
+            return make_error(ErrorCode::invalidOption,
+                              std::to_string(costs.size()) + " vertex costs are given for the " +
+                                  std::to_string(vertices) + " vertices of the target");
+        }
+        for (Index v = 0; v < costs.size(); ++v) {
+            if (!(costs[v] >= kMinPathCost && costs[v] <= kMaxPathCost)) {
+                return make_error(ErrorCode::invalidOption, "the cost of length at target vertex " +
+                                                                std::to_string(v) +
+                                                                " is not from 0.001 to 1000");
+            }
+        }
+        if (!(discount >= 0 && discount <= kMaxFeatureDiscount)) {
+            return make_error(ErrorCode::invalidOption,
+                              "the discount along sharp edges is not from 0 to 0.95");
+        }
+        return {};
+    }
+
     /// False if that ended the job.
     bool build_solver()
     {
         solver.reset();
-        graph = std::make_unique<PathGraph>(make_graph(*problem.target, {options.seed, attempt}));
+        const PathMetric& metric = options.metric;
+        const std::vector<double> edge_costs =
+            metric.feature_discount > 0 ? feature_costs(*problem.target, metric.feature_discount)
+                                        : std::vector<double>{};
+        graph = std::make_unique<PathGraph>(
+            make_graph(*problem.target, {options.seed, attempt, metric.vertex_costs, edge_costs}));
         if (!options.constraints.empty() && options.algorithm != Algorithm::exact) {
             fail(EmbedStatus::failed,
                  make_error(ErrorCode::invalidOption,

@@ -16,6 +16,7 @@
 #include "layout/embedding_problem.hh"
 #include "search/solver.hh"
 #include "surface/path_graph.hh"
+#include "surface/path_metric.hh"
 #include "surface/polylines.hh"
 #include "surface/weak_embedding.hh"
 
@@ -73,6 +74,9 @@ struct EmbedOptions {
     /// What is asked of single paths; for the exact method alone. Costs and bounds are those of the
     /// embeddings that comply.
     std::vector<PathConstraint> constraints;
+    /// What paths cost; costs, bounds and the gap are in this metric. The shapes `short` and `fair`
+    /// move paths without regard to it. Error: invalidOption.
+    PathMetric metric;
 };
 
 /// A few seconds on the machines of today.

@@ -129,7 +129,21 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
         graph.dart_offsets_[node + 1] += graph.dart_offsets_[node];
     }
 
-    graph.unit_ = (high - low).norm() / kDiagonal;
+    // What a unit of length costs at a node.
+    const std::span<const double> costs = options.vertex_costs;
+    const auto at_vertex = [&](Index v) { return costs.empty() ? 1.0 : costs[v]; };
+    const auto at_edge = [&](Index e) {
+        const Index h = target.halfedge(e);
+        return (at_vertex(target.tail(h)) + at_vertex(target.head(h))) / 2;
+    };
+    const auto at_face = [&](Index f) {
+        const auto [a, b, c] = target.face(f);
+        return (at_vertex(a) + at_vertex(b) + at_vertex(c)) / 3;
+    };
+
+    // However dear, no path may overflow.
+    const double dearest = costs.empty() ? 1.0 : *std::max_element(costs.begin(), costs.end());
+    graph.unit_ = (high - low).norm() / kDiagonal * dearest;
     LengthScale scaled(graph.unit_, options);
 
     graph.darts_.resize(graph.dart_offsets_.back());
@@ -148,22 +162,28 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
         const Index head = graph.node_of_vertex(target.head(h));
         const double half = 0.5 * (graph.positions_[tail] - graph.positions_[head]).norm();
         const Index midpoint = graph.node_of_edge(e);
-        join(tail, 2 * ranks[h], midpoint, 2, scaled(half));
+        const double along = options.edge_costs.empty() ? 1.0 : options.edge_costs[e];
+        const double from_tail = along * (at_vertex(target.tail(h)) + at_edge(e)) / 2;
+        const double from_head = along * (at_vertex(target.head(h)) + at_edge(e)) / 2;
+        join(tail, 2 * ranks[h], midpoint, 2, scaled(half * from_tail));
         // At a boundary vertex the last dart belongs to the edge that has no outgoing halfedge.
         const Index head_place = twin != kNone ? 2 * ranks[twin] : graph.degree(head) - 1;
-        join(head, head_place, midpoint, 0, scaled(half));
+        join(head, head_place, midpoint, 0, scaled(half * from_head));
     }
     for (Index h = 0; h < target.halfedge_count(); ++h) {
         const Index centroid = graph.node_of_face(TriangleMesh::face_of(h));
         const Index place = 2 * (h % 3);
         const Index corner = graph.node_of_vertex(target.tail(h));
         const Index e = target.edge(h);
+        const double inside = at_face(TriangleMesh::face_of(h));
+        const double to_corner = (at_vertex(target.tail(h)) + inside) / 2;
+        const double to_midpoint = (at_edge(e) + inside) / 2;
         const Index midpoint = graph.node_of_edge(e);
         const Vec3& center = graph.positions_[centroid];
         join(corner, 2 * ranks[h] + 1, centroid, place,
-             scaled((graph.positions_[corner] - center).norm()));
+             scaled((graph.positions_[corner] - center).norm() * to_corner));
         join(midpoint, target.halfedge(e) == h ? 1 : 3, centroid, place + 1,
-             scaled((graph.positions_[midpoint] - center).norm()));
+             scaled((graph.positions_[midpoint] - center).norm() * to_midpoint));
     }
     return graph;
 }

@@ -41,10 +41,15 @@ public:
         std::uint64_t seed = 1;
         /// 0 at first; raised after a tie to draw other perturbations.
         std::uint32_t attempt = 0;
+        /// What a unit of length costs, as in PathMetric: per vertex, and along each edge relative
+        /// to that; empty for 1.
+        std::span<const double> vertex_costs = {};
+        std::span<const double> edge_costs = {};
     };
 
     /// The barycentric subdivision: nodes are vertices, edge midpoints and face centroids
-    /// (V + E + F of them), with 2 E + 6 F edges. Euclidean lengths. O(#F).
+    /// (V + E + F of them), with 2 E + 6 F edges. Lengths are Euclidean, times what a unit of
+    /// length costs on average. O(#F).
     static PathGraph barycentric(const TriangleMesh& target, const Options& options);
     static PathGraph barycentric(const TriangleMesh& target) { return barycentric(target, {}); }
 
@@ -101,7 +106,7 @@ public:
         return positions_[node];
     }
 
-    /// The length of the integer 1 in the target's units.
+    /// The length of the integer 1 in the target's units, times what a unit of length costs.
     double unit() const
     {
         return unit_;

@@ -1,6 +1,7 @@
 #include "search/exact_solver.hh"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "search/sequence_solver.hh"
 #include "search_ground.hh"
 #include "surface/hole_guard.hh"
+#include "surface/path_metric.hh"
 #include "surface/stretch.hh"
 #include "zoo.hh"
 
@@ -24,8 +26,8 @@ constexpr std::uint64_t kFieldBytes = std::uint64_t{1} << 30U;
 template <typename Solver, typename Options>
 struct Run {
     Run(const EmbeddingProblem& problem, const Options& options, std::uint64_t slice = UINT64_MAX,
-        std::uint64_t max_work = UINT64_MAX)
-        : graph(PathGraph::barycentric(*problem.target, {1, 0})),
+        std::uint64_t max_work = UINT64_MAX, const PathGraph::Options& graph_options = {})
+        : graph(PathGraph::barycentric(*problem.target, graph_options)),
           solver(problem, graph, kFieldBytes, options)
     {
         Length bound = 0;
@@ -91,8 +93,9 @@ public:
 
     AllSelections(
         const EmbeddingProblem& problem, Length limit,
-        const Filter& admits = [](Index, const auto&) { return true; })
-        : ground_(problem, 1), best_(limit), classes_(problem.layout->edge_count())
+        const Filter& admits = [](Index, const auto&) { return true; },
+        const PathGraph::Options& graph_options = {})
+        : ground_(problem, graph_options), best_(limit), classes_(problem.layout->edge_count())
     {
         const Layout& layout = ground_.strands.layout();
         std::vector<Index> nodes;
@@ -204,6 +207,35 @@ TEST(ExactSolver, finds_the_best_of_all_selections)
     }
     EXPECT_GT(above_root, 30);
     EXPECT_GT(looked_into, 10);
+}
+
+TEST(ExactSolver, finds_the_best_of_all_selections_in_any_metric)
+{
+    Random random(213);
+    int other = 0;
+    for (const Instance& instance : test::tiny_instances(212, 40)) {
+        SCOPED_TRACE(instance.name);
+        const TriangleMesh& target = *instance.problem.target;
+        std::vector<double> vertex_costs;
+        for (Index v = 0; v < target.vertex_count(); ++v) {
+            vertex_costs.push_back(std::exp2(2 * random.unit() - 1));
+        }
+        const std::vector<double> edge_costs = feature_costs(target, 0.5);
+        const PathGraph::Options metric{1, 0, vertex_costs, edge_costs};
+        const ExactRun run(instance.problem, {}, UINT64_MAX, UINT64_MAX, metric);
+        ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+        const AllSelections all(
+            instance.problem, run.solver.incumbent_cost() + 1,
+            [](Index, const auto&) { return true; }, metric);
+        EXPECT_EQ(run.solver.incumbent_cost(), all.best());
+        const ExactRun euclidean(instance.problem, {});
+        other += run.solver.incumbent_order() != euclidean.solver.incumbent_order() ||
+                         test::total_length(euclidean.graph, run.solver.incumbent()) >
+                             euclidean.solver.incumbent_cost()
+                     ? 1
+                     : 0;
+    }
+    EXPECT_GT(other, 20);
 }
 
 /// Layouts with boundary on disks, the landmarks drawn among the inner vertices: holes

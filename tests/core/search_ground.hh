@@ -17,7 +17,10 @@ namespace layout_embedding::test {
 /// A path graph with everything a search in it needs.
 struct SearchGround {
     SearchGround(const EmbeddingProblem& problem, std::uint64_t seed)
-        : graph(PathGraph::barycentric(*problem.target, {seed, 0})),
+        : SearchGround(problem, PathGraph::Options{seed, 0})
+    {}
+    SearchGround(const EmbeddingProblem& problem, const PathGraph::Options& options)
+        : graph(PathGraph::barycentric(*problem.target, options)),
           strands(problem, graph),
           fields(graph, strands.passable(), std::uint64_t{1} << 30U),
           search(strands, fields)

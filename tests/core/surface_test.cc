@@ -5,6 +5,8 @@
 #include "instances.hh"
 #include "search_ground.hh"
 #include "surface/conflicts.hh"
+#include "surface/path_metric.hh"
+#include "zoo.hh"
 
 namespace layout_embedding {
 namespace {
@@ -91,6 +93,52 @@ TEST(PathGraph, lengths_are_euclidean_up_to_the_perturbation)
             EXPECT_EQ(graph.dart(d).length, graph.dart(graph.twin(d)).length);
         }
     }
+}
+
+TEST(PathGraph, lengths_are_what_length_costs_where_it_lies)
+{
+    const PolygonMesh ground = zoo::subdivided(zoo::triangulated(zoo::cube()));
+    const TriangleMesh cube(ground);
+    std::vector<double> vertex_costs;
+    for (Index v = 0; v < cube.vertex_count(); ++v) {
+        vertex_costs.push_back(0.5 + v);
+    }
+    const std::vector<double> edge_costs = feature_costs(cube, 0.75);
+    const PathGraph graph = PathGraph::barycentric(cube, {1, 0, vertex_costs, edge_costs});
+    const auto cost = [&](Index node) {
+        const auto [kind, id] = graph.element(node);
+        if (kind == NodeKind::vertex) {
+            return vertex_costs[id];
+        }
+        if (kind == NodeKind::edge_midpoint) {
+            const Index h = cube.halfedge(id);
+            return (vertex_costs[cube.tail(h)] + vertex_costs[cube.head(h)]) / 2;
+        }
+        const auto [a, b, c] = cube.face(id);
+        return (vertex_costs[a] + vertex_costs[b] + vertex_costs[c]) / 3;
+    };
+    int sharp = 0;
+    for (Index d = 0; d < graph.dart_count(); ++d) {
+        const Index a = graph.tail(d);
+        const Index b = graph.head(d);
+        double wanted = (graph.position(a) - graph.position(b)).norm() * (cost(a) + cost(b)) / 2;
+        // Along the cube's edges two coordinates are extreme at both ends.
+        const Vec3 size = graph.position(a).cwiseAbs();
+        const double most = graph.position(graph.node_of_vertex(0)).cwiseAbs().maxCoeff();
+        int extreme = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            extreme += size[axis] > 0.999 * most &&
+                               std::abs(graph.position(b)[axis] - graph.position(a)[axis]) < 1e-9
+                           ? 1
+                           : 0;
+        }
+        if (extreme == 2) {
+            wanted *= 0.25;
+            ++sharp;
+        }
+        EXPECT_NEAR(graph.to_units(graph.dart(d).length), wanted, 0x1.0p30 * 3 * graph.unit());
+    }
+    EXPECT_EQ(sharp, 12 * 2 * 2 * 2);  // edges, halves, halves of these, directions
 }
 
 TEST(PathGraph, other_attempts_and_seeds_draw_other_lengths)

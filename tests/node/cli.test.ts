@@ -11,7 +11,7 @@ import path from "node:path";
 import type { EmbeddingDocument, RefinedMapDocument } from "layout-embedding";
 import { describe, expect, test } from "vitest";
 import { inFolder, run } from "./command.js";
-import { displacedLandmarks, obj, octahedron, sphere } from "./meshes.js";
+import { creased, displacedLandmarks, obj, octahedron, sphere } from "./meshes.js";
 
 /** A folder with layout.obj, target.obj and landmarks.txt. */
 function withInputs(body: (folder: string) => Promise<void>): () => Promise<void> {
@@ -64,6 +64,69 @@ describe("embed", () => {
                 [...again, "--avoid", "12"],
             ]) {
                 expect((await run(wrong, { cwd })).exitCode).toBe(2);
+            }
+        }),
+    );
+
+    test(
+        "in_another_metric_paths_follow_sharp_edges_and_stay_away_from_where_length_is_dear",
+        withInputs(async (cwd) => {
+            const target = creased(3);
+            writeFileSync(path.join(cwd, "target.obj"), obj(target));
+            const x = (vertex: number) => target.positions[3 * vertex]!;
+            const dear = target.positions.flatMap((_, i) =>
+                i % 3 === 0 ? [x(i / 3) > 0.2 ? "5" : "1"] : [],
+            );
+            writeFileSync(path.join(cwd, "dear.txt"), dear.join("\n"));
+            const embed = async (output: string, ...more: string[]) => {
+                const args = ["embed", ...inputs, "--shape", "even", "--gap", "0", ...more];
+                const finished = await run([...args, "--output", output, "--json"], { cwd });
+                expect(finished).toMatchObject({ exitCode: 0, stderr: "" });
+                const check = await run(["check", output, "layout.obj", "target.obj"], { cwd });
+                expect(check.exitCode).toBe(0);
+                const document = JSON.parse(finished.stdout) as EmbeddingDocument;
+                const steps = document.edges.flatMap(({ weakPath }) =>
+                    weakPath.slice(1).map((b, i) => [weakPath[i]!, b] as const),
+                );
+                const isOnCrease = (point: readonly number[]) =>
+                    [0, 1, 2].some((axis) =>
+                        point.every((v) => Math.abs(target.positions[3 * v + axis]!) < 1e-9),
+                    );
+                return {
+                    document,
+                    creased: steps.filter((step) => step.every(isOnCrease)).length / steps.length,
+                    dear: steps.filter((step) => step.flat().every((v) => x(v) > 0.2)).length,
+                };
+            };
+            const plain = await embed("plain");
+            const creases = await embed("creases", "--features", "0.9");
+            expect(creases.creased).toBeGreaterThan(plain.creased + 0.1);
+            expect(creases.document.cost).toBeLessThan(plain.document.cost!);
+            const away = await embed("away", "--vertex-costs", "dear.txt");
+            expect(away.dear).toBeLessThan(plain.dear);
+            expect(away.document.metric.vertexCosts).toHaveLength(dear.length);
+            // What the document says of the metric counts when its cost is checked.
+            const file = path.join(cwd, "creases/embedding.json");
+            writeFileSync(
+                file,
+                readFileSync(file, "utf8").replace(
+                    /"featureDiscount":\s*0.9/,
+                    '"featureDiscount": 0.8',
+                ),
+            );
+            const tampered = await run(["check", "creases", "layout.obj", "target.obj", "--json"], {
+                cwd,
+            });
+            expect(tampered.exitCode).toBe(4);
+            expect(tampered.stdout).toContain("costWrong");
+            writeFileSync(path.join(cwd, "few.txt"), "1 1 0");
+            for (const wrong of [
+                ["--features", "1"],
+                ["--vertex-costs", "few.txt"],
+            ]) {
+                const refused = await run(["embed", ...inputs, ...wrong, "--json"], { cwd });
+                expect(refused.exitCode).toBe(2);
+                expect(errorOf(refused.stdout).code).toBe("invalidOption");
             }
         }),
     );

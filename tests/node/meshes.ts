@@ -122,5 +122,15 @@ export function torus(around: number, across: number): Mesh {
     return { positions, faces };
 }
 
+/** sphere() pushed back onto the flat faces of the octahedron, whose edges are sharp. */
+export function creased(rounds: number): Mesh {
+    const { positions, faces } = sphere(rounds);
+    const flat = positions.map((x, i) => {
+        const first = i - (i % 3);
+        return x / positions.slice(first, first + 3).reduce((sum, y) => sum + Math.abs(y), 0);
+    });
+    return { positions: flat, faces };
+}
+
 /** Several target vertices of sphere(3) for the octahedron, turned so that paths conflict. */
 export const displacedLandmarks = [40, 17, 91, 133, 250, 201];

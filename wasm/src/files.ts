@@ -45,6 +45,8 @@ export interface EmbeddingDocument {
         workLimit: number | null;
         memoryLimit: number | null;
     };
+    /** What paths cost, where that is not their length. */
+    metric: { vertexCosts: number[] | null; featureDiscount: number };
     /** What was asked of single paths. */
     constraints: PathConstraint[];
     inputs: InputRecord[];
@@ -132,6 +134,13 @@ export function embeddingDocument(exportable: Exportable): EmbeddingDocument {
             timeLimit: finite(options.timeLimit),
             workLimit: finite(options.workLimit),
             memoryLimit: finite(options.memoryLimit),
+        },
+        metric: {
+            vertexCosts:
+                options.metric.vertexCosts.length > 0
+                    ? Array.from(options.metric.vertexCosts)
+                    : null,
+            featureDiscount: options.metric.featureDiscount,
         },
         constraints: [...options.constraints],
         inputs: exportable.inputs,

@@ -69,6 +69,7 @@ export interface JobOptions {
     workLimit: number;
     memoryLimit: number;
     seed: number;
+    metric: { vertexCosts: Float64Array; featureDiscount: number };
     constraints: readonly PathConstraint[];
 }
 
@@ -82,6 +83,10 @@ export function jobOptions(options: SolveOptions): JobOptions {
         workLimit: options.workLimit ?? Infinity,
         memoryLimit: options.memoryLimit ?? Infinity,
         seed: options.seed ?? 1,
+        metric: {
+            vertexCosts: Float64Array.from(options.metric?.vertexCosts ?? []),
+            featureDiscount: options.metric?.featureDiscount ?? 0,
+        },
         constraints: options.constraints ?? [],
     };
     const refuse = (name: string, value: unknown, wanted: string) =>
@@ -106,6 +111,14 @@ export function jobOptions(options: SolveOptions): JobOptions {
     if (!Number.isSafeInteger(checked.seed) || checked.seed < 0) {
         throw refuse("seed", checked.seed, "an integer from 0 to 2^53 - 1");
     }
+    const { vertexCosts, featureDiscount } = checked.metric;
+    const wrong = vertexCosts.find((cost) => !(cost >= 0.001 && cost <= 1000));
+    if (wrong !== undefined) {
+        throw refuse("metric.vertexCosts", wrong, "a list of numbers from 0.001 to 1000");
+    }
+    if (!(featureDiscount >= 0 && featureDiscount <= 0.95)) {
+        throw refuse("metric.featureDiscount", featureDiscount, "a number from 0 to 0.95");
+    }
     for (const { rule, edge } of checked.constraints) {
         if ((rule as unknown) !== "keep" && (rule as unknown) !== "avoid") {
             throw refuse("constraints", rule, "a list of rules that are keep or avoid");
@@ -128,7 +141,7 @@ export function createJob(
     landmarks: Uint32Array,
     options: JobOptions,
 ): Handle {
-    const { constraints } = options;
+    const { constraints, metric } = options;
     const paths = flattenedWeakPaths(
         constraints.map(({ path }) => path),
         (place) =>
@@ -153,6 +166,9 @@ export function createJob(
             workAmount(options.workLimit),
             options.memoryLimit,
             shapes.indexOf(options.shape),
+            copy(metric.vertexCosts),
+            metric.vertexCosts.length,
+            metric.featureDiscount,
             copy(Uint32Array.from(constraints, ({ edge }) => edge)),
             copy(Uint32Array.from(constraints, ({ rule }) => (rule === "keep" ? 1 : 0))),
             copy(paths.items),

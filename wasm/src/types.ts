@@ -200,6 +200,21 @@ export interface PathConstraint {
     path: readonly WeakPoint[];
 }
 
+/**
+ * What a unit of length costs, by which paths are kept away from places or drawn to them. Bounds and
+ * proofs hold in it as for plain length. The shapes `short` and `fair` straighten paths without
+ * regard to it; `even` leaves them where they are.
+ */
+export interface PathMetric {
+    /** Per target vertex, from 0.001 to 1000, linear in between. Default: 1 everywhere. */
+    vertexCosts?: ArrayLike<number>;
+    /**
+     * How much less it costs to go along sharp edges of the target, from 0 to 0.95: all of it where
+     * faces meet at 60 degrees from flat, nothing up to 20 degrees. Default 0.
+     */
+    featureDiscount?: number;
+}
+
 /** How the embedding is looked for, until when, and how that is told. */
 export interface SolveOptions {
     /** Default: exact. */
@@ -220,6 +235,8 @@ export interface SolveOptions {
     memoryLimit?: number;
     /** A non-negative integer; the same seed gives the same result on every machine. Default 1. */
     seed?: number;
+    /** What paths cost besides their length; costs, bounds and the gap are in this metric. */
+    metric?: PathMetric;
     /**
      * What is asked of single paths, for the exact method alone: costs and bounds are those of the
      * embeddings that comply, and all other paths follow. Another route for an edge is

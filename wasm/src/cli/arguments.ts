@@ -19,6 +19,8 @@ export interface EmbedCommand {
     target: string;
     landmarks: string | null;
     repair: boolean;
+    /** A file with what length costs at the target's vertices. */
+    vertexCosts: string | null;
     /** Which layout edges are to keep their routes, or to take others, than in an earlier output. */
     previous: { folder: string; keep: number[]; avoid: number[] } | null;
     output: string | null;
@@ -116,6 +118,7 @@ const solveOptions = {
     "memory-limit": { type: "string" },
     seed: { type: "string" },
     shape: { type: "string" },
+    features: { type: "string" },
 } as const satisfies ParseArgsConfig["options"];
 
 type SolveValues = ReturnType<typeof parseArgs<{ options: typeof solveOptions }>>["values"];
@@ -123,6 +126,7 @@ type SolveValues = ReturnType<typeof parseArgs<{ options: typeof solveOptions }>
 const embedOptions = {
     ...commonOptions,
     ...solveOptions,
+    "vertex-costs": { type: "string" },
     previous: { type: "string" },
     keep: { type: "string", multiple: true },
     avoid: { type: "string", multiple: true },
@@ -271,6 +275,7 @@ function embedCommand(
         target,
         landmarks: values.landmarks ?? null,
         repair: values.repair === true,
+        vertexCosts: values["vertex-costs"] ?? null,
         previous: previous(values),
         output: values.output ?? null,
         quads,
@@ -285,6 +290,7 @@ function embedCommand(
 
 /** The options of a search; wrong values are found before any file is read. */
 function solveValues(values: SolveValues): SolveOptions {
+    const discount = number("--features", values.features);
     const solve: SolveOptions = {
         ...given("algorithm", values.algorithm as Algorithm | undefined),
         ...given("gap", number("--gap", values.gap)),
@@ -293,6 +299,7 @@ function solveValues(values: SolveValues): SolveOptions {
         ...given("memoryLimit", number("--memory-limit", values["memory-limit"], 1e6)),
         ...given("shape", values.shape as PathShape | undefined),
         ...given("seed", number("--seed", values.seed)),
+        ...given("metric", discount === undefined ? undefined : { featureDiscount: discount }),
     };
     jobOptions(solve);
     return solve;

@@ -72,7 +72,7 @@ async function checkEmbedding(
     try {
         await session.setLandmarks(document.landmarks, { numbering: "loaded" });
         const violations = await session.check({ refined, edges: document.edges });
-        return [...violations, ...checkNumbers(written, layout, target.positions)];
+        return [...violations, ...checkNumbers(written, layout, target)];
     } catch (reason) {
         // The inputs are sound, so whatever does not fit them is the embedding's fault.
         if (reason instanceof LayoutError) {

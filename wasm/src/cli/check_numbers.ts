@@ -1,7 +1,7 @@
 // What embedding.json says in numbers, compared with what is there; the checker looks at the
 // embedding itself.
 import { chainLength } from "../job.js";
-import type { LayoutInfo, Violation, WeakPoint } from "../types.js";
+import type { LayoutInfo, TargetInfo, Violation, WeakPoint } from "../types.js";
 import type { WrittenEmbedding } from "./read_embedding.js";
 
 /** Sums of the same numbers in another order differ by less. */
@@ -15,7 +15,7 @@ const perturbation = 2 ** -22;
 export function checkNumbers(
     { document, refined, lines }: WrittenEmbedding,
     layout: LayoutInfo,
-    target: Float64Array,
+    target: TargetInfo,
 ): Violation[] {
     const violations: Violation[] = [];
     const refuse = (code: string, message: string) => violations.push({ code, message });
@@ -44,9 +44,11 @@ export function checkNumbers(
             refuse("lengthWrong", `${name} says it is ${String(edge.length)} long, and is not.`);
         }
     }
-    const cost = document.edges.reduce((sum, edge) => sum + weakLength(target, edge.weakPath), 0);
+    const price = pricing(target, document.metric);
+    const cost = document.edges.reduce((sum, { weakPath }) => sum + price(weakPath), 0);
     const steps = document.edges.reduce((sum, edge) => sum + edge.weakPath.length, 0);
-    const tolerance = steps * perturbation * diagonal(target) + rounding * cost;
+    const dearest = Math.max(1, ...(document.metric.vertexCosts ?? []));
+    const tolerance = steps * perturbation * dearest * diagonal(target.positions) + rounding * cost;
     if (document.cost === null || !(Math.abs(document.cost - cost) <= tolerance)) {
         refuse("costWrong", `the weak paths add up to ${String(cost)}, not to the cost.`);
         return violations;
@@ -78,17 +80,80 @@ function diagonal(positions: Float64Array): number {
     return Math.hypot(...high.map((coordinate, axis) => coordinate - (low[axis] ?? 0)));
 }
 
-/** The length of a weak path between the centroids of its points' target vertices. */
-function weakLength(target: Float64Array, path: WeakPoint[]): number {
-    const points = path.flatMap((point) =>
-        [0, 1, 2].map(
-            (axis) =>
-                point.reduce((sum, vertex) => sum + (target[3 * vertex + axis] ?? NaN), 0) /
-                point.length,
-        ),
-    );
-    return chainLength(
-        points,
-        path.map((_, place) => place),
-    );
+/**
+ * What a weak path costs between the centroids of its points' target vertices. That is worked out
+ * here from the mesh, not by the code that the search has.
+ */
+function pricing(
+    { positions, corners }: TargetInfo,
+    { vertexCosts, featureDiscount }: WrittenEmbedding["document"]["metric"],
+): (path: WeakPoint[]) => number {
+    const at = (vertex: number, axis: number) => positions[3 * vertex + axis] ?? NaN;
+    const mean = (point: WeakPoint, of: (vertex: number) => number) =>
+        point.reduce((sum, vertex) => sum + of(vertex), 0) / point.length;
+    const place = (point: WeakPoint) =>
+        [0, 1, 2].map((axis) => mean(point, (vertex) => at(vertex, axis)));
+    const cost = (point: WeakPoint) =>
+        vertexCosts === null ? 1 : mean(point, (vertex) => vertexCosts[vertex] ?? NaN);
+    const discounts =
+        featureDiscount > 0
+            ? sharpEdges(positions, corners, featureDiscount)
+            : new Map<string, number>();
+    const along = (a: WeakPoint, b: WeakPoint) => {
+        const [edge, other] = a.length === 2 ? [a, b] : [b, a];
+        return edge.length === 2 && other.length === 1
+            ? (discounts.get([...edge].sort((v, w) => v - w).join(" ")) ?? 1)
+            : 1;
+    };
+    return (path) => {
+        let sum = 0;
+        for (const [i, b] of path.entries()) {
+            const a = path[i - 1];
+            if (a !== undefined) {
+                const from = place(a);
+                const length = Math.hypot(...place(b).map((x, axis) => x - (from[axis] ?? NaN)));
+                sum += ((length * (cost(a) + cost(b))) / 2) * along(a, b);
+            }
+        }
+        return sum;
+    };
+}
+
+/** Per edge between two faces, "v w" with v < w: the share of its length that counts. */
+function sharpEdges(
+    positions: Float64Array,
+    corners: Uint32Array,
+    discount: number,
+): Map<string, number> {
+    const normals = new Map<string, number[][]>();
+    for (let i = 0; i < corners.length; i += 3) {
+        const face = [...corners.subarray(i, i + 3)];
+        const [a, b, c] = face.map((vertex) => [
+            ...positions.subarray(3 * vertex, 3 * vertex + 3),
+        ]) as [number[], number[], number[]];
+        const u = b.map((x, axis) => x - (a[axis] ?? NaN)) as [number, number, number];
+        const v = c.map((x, axis) => x - (a[axis] ?? NaN)) as [number, number, number];
+        const normal = [
+            u[1] * v[2] - u[2] * v[1],
+            u[2] * v[0] - u[0] * v[2],
+            u[0] * v[1] - u[1] * v[0],
+        ];
+        for (const [k, vertex] of face.entries()) {
+            const next = face[(k + 1) % 3] ?? 0;
+            const key = `${String(Math.min(vertex, next))} ${String(Math.max(vertex, next))}`;
+            normals.set(key, [...(normals.get(key) ?? []), normal]);
+        }
+    }
+    const shares = new Map<string, number>();
+    const begins = Math.cos(Math.PI / 9);
+    const full = Math.cos(Math.PI / 3);
+    for (const [key, [m, n]] of normals) {
+        if (m !== undefined && n !== undefined) {
+            const dot = m.reduce((sum, x, axis) => sum + x * (n[axis] ?? NaN), 0);
+            const cosine = dot / (Math.hypot(...m) * Math.hypot(...n));
+            const sharpness = Math.min(1, Math.max(0, (begins - cosine) / (begins - full)));
+            shares.set(key, 1 - discount * sharpness);
+        }
+    }
+    return shares;
 }

@@ -2,9 +2,17 @@
 import { LayoutError } from "../errors.js";
 import { jsonBytes, type EmbeddingDocument } from "../files.js";
 import { Session } from "../session.js";
-import type { EmbedResult, PathConstraint, QuadMesh, QualityReport } from "../types.js";
+import type {
+    EmbedResult,
+    PathConstraint,
+    PathMetric,
+    QuadMesh,
+    QualityReport,
+    SolveOptions,
+    TargetInfo,
+} from "../types.js";
 import type { EmbedCommand } from "./arguments.js";
-import { readInput, readReference } from "./input_files.js";
+import { readInput, readReference, readVertexCosts } from "./input_files.js";
 import { exitCodes, type Outcome } from "./outcome.js";
 import { OutputFolder } from "./output_folder.js";
 import { ProgressLine } from "./progress.js";
@@ -22,9 +30,12 @@ export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
     const session = await Session.create();
     try {
         const previous = command.previous && (await readDocument(command.previous.folder));
-        await load(session, command, previous);
-        const constraints = constraintsOf(command, previous);
-        const result = await solve(session, command, constraints, interrupt.signal);
+        const target = await load(session, command, previous);
+        const asked = {
+            constraints: constraintsOf(command, previous),
+            metric: await metricOf(command, target),
+        };
+        const result = await solve(session, command, asked, interrupt.signal);
         return await finish(session, command, output, result, interrupt.signal.aborted);
     } finally {
         await session.dispose();
@@ -38,7 +49,7 @@ async function load(
     session: Session,
     command: EmbedCommand,
     previous: CheckedDocument | null,
-): Promise<void> {
+): Promise<TargetInfo> {
     const reference = command.target === "" ? await readReference(command.layout) : null;
     const layout = await readInput("the layout", reference?.layout ?? command.layout);
     const target = await readInput("the target", reference?.target ?? command.target);
@@ -46,11 +57,12 @@ async function load(
         command.landmarks === null ? null : await readInput("the landmark file", command.landmarks);
     const options = { repair: command.repair };
     const loaded = await session.loadLayout(layout, options);
-    const notes = [...loaded.notes, ...(await session.loadTarget(target, options)).notes];
+    const loadedTarget = await session.loadTarget(target, options);
+    const notes = [...loaded.notes, ...loadedTarget.notes];
     if (file === null && previous !== null) {
         await session.setLandmarks(previous.landmarks, { numbering: "loaded" });
         printNotes(command, notes);
-        return;
+        return loadedTarget;
     }
     const landmarks =
         file ?? reference?.landmarks(loaded.vertexMap?.length ?? loaded.vertexCount) ?? null;
@@ -61,6 +73,26 @@ async function load(
         ).notes,
     );
     printNotes(command, notes);
+    return loadedTarget;
+}
+
+/** The file's costs are those of its vertices before a repair. */
+async function metricOf(
+    { solve, vertexCosts: file }: EmbedCommand,
+    { vertexCount, vertexMap }: TargetInfo,
+): Promise<PathMetric> {
+    if (file === null) {
+        return solve.metric ?? {};
+    }
+    const costs = await readVertexCosts(file, vertexMap?.length ?? vertexCount);
+    const vertexCosts = new Float64Array(vertexCount);
+    for (const [i, cost] of costs.entries()) {
+        const vertex = vertexMap === null ? i : (vertexMap[i] ?? -1);
+        if (vertex >= 0) {
+            vertexCosts[vertex] = cost;
+        }
+    }
+    return { ...solve.metric, vertexCosts };
 }
 
 function printNotes(command: EmbedCommand, notes: string[]): void {
@@ -91,14 +123,14 @@ function constraintsOf(command: EmbedCommand, previous: CheckedDocument | null):
 async function solve(
     session: Session,
     command: EmbedCommand,
-    constraints: PathConstraint[],
+    asked: Pick<SolveOptions, "constraints" | "metric">,
     signal: AbortSignal,
 ): Promise<EmbedResult> {
     const line = new ProgressLine(process.stderr.isTTY && !command.quiet);
     try {
         return await session.solve({
             ...command.solve,
-            constraints,
+            ...asked,
             signal,
             onProgress: (progress) => {
                 line.show(progress);

@@ -45,6 +45,10 @@ Options of embed
   --shape NAME         short (default): paths as straight as their neighbours allow; even: crossing
                        the target's edges at even distances; fair: short, then traced anew where
                        that makes thin patches rounder
+  --features X         how much less paths cost along sharp edges, 0 (default) to 0.95; with
+                       --shape even they stay there
+  --vertex-costs FILE  one number per target vertex and line, 0.001 to 1000: what a unit of length
+                       costs there
   --previous DIR       an earlier output for the same layout, target and landmarks (which need not
                        be given again), for the two options that follow
   --avoid LIST         other routes for these edges, separated by commas; all others follow

@@ -2,7 +2,7 @@
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import { readReferenceInput } from "../formats.js";
-import { javaScriptError, type LayoutError } from "../errors.js";
+import { javaScriptError, LayoutError } from "../errors.js";
 
 /** A file's content and name, as the session takes them. `what` begins the messages. */
 export async function readInput(
@@ -30,6 +30,29 @@ export async function readReference(file: string): Promise<{
         target: path.resolve(folder, targetFile),
         landmarks,
     };
+}
+
+/** A file with a number per line, one for each of `count` vertices. */
+export async function readVertexCosts(file: string, count: number): Promise<number[]> {
+    const { bytes, name } = await readInput("the file of vertex costs", file);
+    const words = new TextDecoder().decode(bytes).split(/\s+/).filter(Boolean);
+    const costs = words.map(Number);
+    const wrong = costs.findIndex((cost) => !(cost >= 0.001 && cost <= 1000));
+    if (wrong >= 0) {
+        throw new LayoutError(
+            "invalidOption",
+            `${name} says that length costs ${words[wrong] ?? ""} at vertex ${String(wrong)}; ` +
+                "give numbers from 0.001 to 1000.",
+        );
+    }
+    if (costs.length !== count) {
+        throw new LayoutError(
+            "invalidOption",
+            `${name} has ${String(costs.length)} numbers, the target ${String(count)} vertices; ` +
+                "give one number per vertex.",
+        );
+    }
+    return costs;
 }
 
 /** The error of a file that could not be read. */

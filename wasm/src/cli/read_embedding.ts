@@ -12,7 +12,7 @@ import { Shape } from "./shape.js";
 /** What is checked of embedding.json. */
 export type CheckedDocument = Pick<
     EmbeddingDocument,
-    "cost" | "lowerBound" | "gap" | "status" | "landmarks"
+    "cost" | "lowerBound" | "gap" | "status" | "metric" | "landmarks"
 > & {
     edges: Pick<
         EmbeddingDocument["edges"][number],
@@ -82,11 +82,18 @@ function embedding(value: unknown): CheckedDocument & Pick<EmbeddingDocument, "p
     if (edges.length === 0) {
         throw damaged("embedding.json holds no embedding");
     }
+    const metric = root.get("metric");
     return {
         cost: root.get("cost").number(),
         lowerBound: root.get("lowerBound").number(),
         gap: root.get("gap").number(),
         status: root.get("status").text(),
+        metric: {
+            vertexCosts: metric
+                .get("vertexCosts")
+                .nullOr(() => metric.get("vertexCosts").list((cost) => cost.number())),
+            featureDiscount: metric.get("featureDiscount").number(),
+        },
         landmarks: root.get("landmarks").list((landmark) => landmark.id()),
         patches: root.get("patches").list((patch) => patch.nullOr(() => patch.id())),
         edges,
