@@ -528,6 +528,12 @@ struct EmbedJob::Implementation {
         const auto milliseconds = [&] {
             return std::chrono::duration<double, std::milli>(Clock::now() - slice_start).count();
         };
+        const auto seen = static_cast<std::ptrdiff_t>(events.size());
+        const auto has_improved = [&] {
+            return std::any_of(events.begin() + seen, events.end(), [](const EmbedEvent& event) {
+                return event.kind == EventKind::incumbent;
+            });
+        };
         do {
             switch (phase) {
                 case EmbedPhase::prepare:
@@ -557,7 +563,7 @@ struct EmbedJob::Implementation {
                 case EmbedPhase::done:
                     return;
             }
-        } while (milliseconds() < budget.milliseconds && work < work_end);
+        } while (milliseconds() < budget.milliseconds && work < work_end && !has_improved());
     }
 };
 

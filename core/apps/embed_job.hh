@@ -176,8 +176,9 @@ public:
     EmbedJob(EmbedJob&&) noexcept;
     EmbedJob& operator=(EmbedJob&&) noexcept;
 
-    /// Does some work; false once the job has ended. Preparing, cutting and checking are not
-    /// interrupted, and only the search counts as work.
+    /// Does some work, until a better embedding is found at most, so that each can be shown; false
+    /// once the job has ended. Preparing, cutting and checking are not interrupted, and only the
+    /// search counts as work.
     bool step(const StepBudget& budget = {});
 
     /// Ends the search at the next step(); an incumbent is still realised, in its shape, and
