@@ -169,7 +169,7 @@ using PathGraphMaker = std::function<PathGraph(const TriangleMesh&, const PathGr
 /// their seconds) are identical on every platform, however the job is sliced.
 class EmbedJob {
 public:
-    /// In the Euclidean metric.
+    /// In the metric of the options.
     EmbedJob(EmbeddingProblem problem, EmbedOptions options);
     EmbedJob(EmbeddingProblem problem, EmbedOptions options, PathGraphMaker make_graph);
     ~EmbedJob();

@@ -78,3 +78,15 @@ test("a_map_without_both_embeddings_is_refused", async () => {
     const map = mapSurfaces({ layout, reference: side, target: side }, { workLimit: 1 });
     await expect(map).rejects.toMatchObject({ name: "LayoutError", code: "noEmbedding" });
 });
+
+test.each([
+    [{ vertexCosts: [1, 1] }, /^2 vertex costs are given for the \d+ vertices/],
+    [{ vertexCosts: ball.positions.map(() => 0) }, /vertexCosts/],
+    [{ featureDiscount: 1 }, /featureDiscount/],
+])("a_metric_that_makes_no_sense_is_refused: %#", async (metric, message) => {
+    const target = { positions: ball.positions, corners: ball.faces.flat() };
+    const layout = { positions: octahedron.positions, corners: octahedron.faces.flat() };
+    const embedding = embed({ layout, target, landmarks: [0, 1, 2, 3, 4, 5] }, { metric });
+    await expect(embedding).rejects.toMatchObject({ name: "LayoutError", code: "invalidOption" });
+    await expect(embedding).rejects.toThrow(message);
+});
