@@ -192,11 +192,10 @@ void NormalForm::pop_off_vertex(Index id, std::span<const Index> halfedges,
     elements_[vertex.next].previous = before;
 }
 
-bool NormalForm::remove_bigon(Index id)
+Index NormalForm::remove_bigon(Index id)
 {
-    bool found = false;
-    while (id != kNone && elements_[id].next != kNone && is_bigon(id, elements_[id].next)) {
-        found = true;
+    // Never runs out of elements: a strand starts at a vertex, which stays.
+    while (elements_[id].next != kNone && is_bigon(id, elements_[id].next)) {
         const Index next = elements_[id].next;
         const Index before = elements_[id].previous;
         const bool first_crosses = elements_[id].is_crossing();
@@ -208,7 +207,7 @@ bool NormalForm::remove_bigon(Index id)
             id = before;
         }
     }
-    return found;
+    return id;
 }
 
 bool NormalForm::is_bigon(Index a, Index b) const

@@ -104,9 +104,9 @@ public:
     /// are measured from the vertex as parameters. O(crossings).
     void pop_off_vertex(Index id, std::span<const Index> halfedges,
                         std::span<const double> distances);
-    /// Erases the bigon of `id` and the next element of its strand, and those that this makes of
-    /// their neighbours; false if there is none.
-    bool remove_bigon(Index id);
+    /// Erases the bigon of `id` and the next element of its strand, if there is one, and those that
+    /// this makes of their neighbours. Returns `id`, or the last element before it that is left.
+    Index remove_bigon(Index id);
     /// Erases every bigon: two consecutive crossings of one edge, and a crossing next to a vertex
     /// that its edge ends at. What lies inside a bigon belongs to bigons too, so strands stay
     /// disjoint, and each moves by an isotopy that fixes the vertices. Returns the number of

@@ -79,8 +79,7 @@ void Straightening::tighten_next()
             moved = true;
         }
         const Index vertex = form_.element(id).vertex;
-        const Index before = form_.element(id).previous;
-        if (moves_.pop(id, kTinySpacing)) {
+        if (const Index before = moves_.pop(id, kTinySpacing); before != kNone) {
             moved = true;
             // What lay behind the strand may follow it.
             mark_around(vertex);

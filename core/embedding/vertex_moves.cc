@@ -257,14 +257,13 @@ double VertexMoves::reach_from(Index vertex, Index edge) const
     return last == kNone ? 1 : 1 - form_.element(last).parameter;
 }
 
-bool VertexMoves::pop(Index element, double spacing)
+Index VertexMoves::pop(Index element, double spacing)
 {
     const Index before = form_.element(element).previous;
     if (!pop_to_side(element, true, spacing) && !pop_to_side(element, false, spacing)) {
-        return false;
+        return kNone;
     }
-    form_.remove_bigon(before);
-    return true;
+    return form_.remove_bigon(before);
 }
 
 }  // namespace layout_embedding

@@ -34,8 +34,9 @@ public:
     /// If the strand at a vertex element makes an angle below pi on one of its sides there, moves
     /// it off the vertex to this side, to the straight line between the elements before and after
     /// or as near to it as neighbouring crossings allow, but only if it keeps the gaps of `spacing`
-    /// from the vertex there. False if nothing was done. O(vertex degree).
-    bool pop(Index element, double spacing);
+    /// from the vertex there. Returns the last element of the strand before the place of the move,
+    /// or kNone if nothing was done. O(vertex degree).
+    Index pop(Index element, double spacing);
 
     /// The vertex as seen from a crossing towards the tail (or head) of its edge, if there is no
     /// crossing in between; else kNone.
