@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "apps/base_complex.hh"
 #include "apps/quad_relaxation.hh"
@@ -31,10 +32,12 @@ double surface_area(const TriangleMesh& mesh)
     return sum;
 }
 
-class QuadMesher {
+}  // namespace
+
+class QuadMeshJob::Mesher {
 public:
-    QuadMesher(const Layout& layout, const TriangleMesh& target, const RefinedMesh& refined,
-               const QuadOptions& options)
+    Mesher(const Layout& layout, const TriangleMesh& target, const RefinedMesh& refined,
+           const QuadOptions& options)
         : layout_(layout),
           target_(target),
           refined_(refined),
@@ -43,12 +46,13 @@ public:
           origin_(target, refined)
     {}
 
-    Result<QuadMesh> run()
+    /// Everything but relaxation and what finish() adds.
+    Status fill()
     {
-        if (const Status status = choose(); !status) {
-            return status.error();
+        if (Status status = choose(); !status) {
+            return status;
         }
-        auto patches = patches_of(layout_, refined_);
+        const auto patches = patches_of(layout_, refined_);
         if (!patches) {
             return patches.error();
         }
@@ -57,11 +61,35 @@ public:
         place_chains();
         first_spoke_ = 2 * layout_.edge_count();
         for (const Patch& patch : *patches) {
-            if (const Status status = fill(patch); !status) {
-                return status.error();
+            if (Status status = fill(patch); !status) {
+                return status;
             }
         }
-        finish();
+        describe();
+        return {};
+    }
+
+    QuadMesh& mesh() { return mesh_; }
+
+    /// The landmarks, and chains on the boundary of the layout.
+    std::vector<bool> fixed_vertices() const
+    {
+        std::vector<bool> fixed(mesh_.positions.size(), false);
+        std::fill(fixed.begin(), fixed.begin() + layout_.vertex_count(), true);
+        for (Index e = 0; e < layout_.edge_count(); ++e) {
+            if (layout_.face(2 * e) == kNone || layout_.face(2 * e + 1) == kNone) {
+                for (const Index v : mesh_.chains[e]) {
+                    fixed[v] = true;
+                }
+            }
+        }
+        return fixed;
+    }
+
+    QuadMesh finish()
+    {
+        mesh_.statistics =
+            quad_statistics(mesh_.positions, mesh_.quads, surface_normals(target_, mesh_));
         return std::move(mesh_);
     }
 
@@ -316,7 +344,7 @@ private:
         }
     }
 
-    void finish()
+    void describe()
     {
         mesh_.is_subdivided = base_.is_subdivided();
         mesh_.segments = segments_;
@@ -328,24 +356,12 @@ private:
              e < base_.edge_count(); ++e) {
             mesh_.chains.push_back(edge_vertices_[e]);
         }
-        std::vector<bool> fixed(mesh_.positions.size(), false);
-        std::fill(fixed.begin(), fixed.begin() + layout_.vertex_count(), true);
-        for (Index e = 0; e < layout_.edge_count(); ++e) {
-            if (layout_.face(2 * e) == kNone || layout_.face(2 * e + 1) == kNone) {
-                for (const Index v : mesh_.chains[e]) {
-                    fixed[v] = true;
-                }
-            }
-        }
-        relax_quads(target_, fixed, options_.relaxation_rounds, mesh_);
-        mesh_.statistics =
-            quad_statistics(mesh_.positions, mesh_.quads, surface_normals(target_, mesh_));
     }
 
     const Layout& layout_;
     const TriangleMesh& target_;
     const RefinedMesh& refined_;
-    const QuadOptions& options_;
+    QuadOptions options_;
     BaseComplex base_;
     RefinedOrigin origin_;
     std::vector<Index> segments_;                               // per base edge
@@ -355,12 +371,74 @@ private:
     QuadMesh mesh_;
 };
 
-}  // namespace
+struct QuadMeshJob::Implementation {
+    Implementation(const Layout& layout, const TriangleMesh& surface, const RefinedMesh& refined,
+                   const QuadOptions& options)
+        : target(surface),
+          rounds(options.relaxation_rounds),
+          mesher(layout, surface, refined, options)
+    {}
+
+    const TriangleMesh& target;
+    Index rounds;
+    Mesher mesher;
+    std::optional<QuadRelaxation> relaxation;
+    Status status;
+    bool is_over = false;
+};
+
+QuadMeshJob::QuadMeshJob(const Layout& layout, const TriangleMesh& target,
+                         const RefinedMesh& refined, const QuadOptions& options)
+    : implementation_(std::make_unique<Implementation>(layout, target, refined, options))
+{}
+QuadMeshJob::~QuadMeshJob() = default;
+
+bool QuadMeshJob::step()
+{
+    Implementation& job = *implementation_;
+    if (job.is_over) {
+        return false;
+    }
+    if (!job.relaxation) {
+        job.status = job.mesher.fill();
+        job.is_over = !job.status;
+        if (job.status) {
+            job.relaxation.emplace(job.target, job.mesher.fixed_vertices(), job.rounds,
+                                   job.mesher.mesh());
+        }
+    } else {
+        job.is_over = !job.relaxation->step();
+    }
+    return !job.is_over;
+}
+
+double QuadMeshJob::progress() const
+{
+    const Implementation& job = *implementation_;
+    return job.is_over ? 1 : job.relaxation ? job.relaxation->progress() : 0;
+}
+
+bool QuadMeshJob::has_mesh() const
+{
+    return implementation_->relaxation.has_value();
+}
+
+Result<QuadMesh> QuadMeshJob::take()
+{
+    Implementation& job = *implementation_;
+    if (!job.status) {
+        return job.status.error();
+    }
+    return job.mesher.finish();
+}
 
 Result<QuadMesh> make_quad_mesh(const Layout& layout, const TriangleMesh& target,
                                 const RefinedMesh& refined, const QuadOptions& options)
 {
-    return QuadMesher(layout, target, refined, options).run();
+    QuadMeshJob job(layout, target, refined, options);
+    while (job.step()) {
+    }
+    return job.take();
 }
 
 std::string write_quad_obj(const QuadMesh& mesh)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,29 @@ struct QuadMesh {
 /// tooLarge (more than 16 million vertices).
 Result<QuadMesh> make_quad_mesh(const Layout& layout, const TriangleMesh& target,
                                 const RefinedMesh& refined, const QuadOptions& options = {});
+
+/// The same in steps: the patches as they are, then each round of relaxation.
+class QuadMeshJob {
+public:
+    /// All but `options` must outlive this.
+    QuadMeshJob(const Layout& layout, const TriangleMesh& target, const RefinedMesh& refined,
+                const QuadOptions& options);
+    ~QuadMeshJob();
+
+    /// Does some work; false once there is nothing left to do.
+    bool step();
+    /// Share of the work that is done, at least, in [0, 1].
+    double progress() const;
+    /// Whether there is a mesh that could be taken, relaxed or not.
+    bool has_mesh() const;
+    /// The mesh as far as it is relaxed, or what went wrong; once, after the first step().
+    Result<QuadMesh> take();
+
+private:
+    class Mesher;
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
 
 /// `mesh` as OBJ: the quads of each layout face as a group `patch_<face>`, the base complex as `l`
 /// lines.

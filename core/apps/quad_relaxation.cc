@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "patches/domain.hh"
 
 namespace layout_embedding {
-namespace {
 
-class QuadRelaxation {
+class QuadRelaxation::Implementation {
 public:
-    QuadRelaxation(const TriangleMesh& target, const std::vector<bool>& fixed, QuadMesh& mesh)
-        : target_(target), fixed_(fixed), mesh_(mesh)
+    Implementation(const TriangleMesh& target, std::vector<bool> fixed, Index rounds,
+                   QuadMesh& mesh)
+        : target_(target), fixed_(std::move(fixed)), rounds_(rounds), mesh_(mesh)
     {
         offsets_.assign(mesh.positions.size() + 1, 0);
         for (const auto& quad : mesh.quads) {
@@ -31,25 +32,50 @@ public:
         }
     }
 
-    void run(Index rounds)
+    bool step()
     {
-        for (Index round = 0; round < rounds; ++round) {
-            double moved = 0;
-            for (Index v = 0; v < mesh_.positions.size(); ++v) {
-                if (!fixed_[v]) {
-                    moved = std::max(moved, move(v));
-                }
-            }
-            if (moved < 1e-3) {
-                break;
-            }
+        if (stage_ == kStages) {
+            return false;
         }
-        mend(rounds);
-        untangle(rounds);
-        mend(rounds);
+        const bool is_mending = stage_ == kMend || stage_ == kMendAgain;
+        const Index rounds = (is_mending ? 2 : 1) * rounds_;
+        const bool more = round_ < rounds && (stage_ == kSmooth     ? smooth()
+                                              : stage_ == kUntangle ? untangle()
+                                                                    : mend());
+        ++round_;
+        if (!more) {
+            ++stage_;
+            round_ = 0;
+        }
+        return stage_ < kStages;
+    }
+
+    double progress() const
+    {
+        const double share = rounds_ > 0 ? double(round_) / (2.0 * rounds_) : 0;
+        return std::min(1.0, (stage_ + share) / kStages);
     }
 
 private:
+    // Stages, in this order; what untangling does may be mended again.
+    static constexpr int kSmooth = 0;
+    static constexpr int kMend = 1;
+    static constexpr int kUntangle = 2;
+    static constexpr int kMendAgain = 3;
+    static constexpr int kStages = 4;
+
+    /// Each of these does a round; false if another one would change nothing.
+    bool smooth()
+    {
+        double moved = 0;
+        for (Index v = 0; v < mesh_.positions.size(); ++v) {
+            if (!fixed_[v]) {
+                moved = std::max(moved, move(v));
+            }
+        }
+        return moved >= 1e-3;
+    }
+
     /// The smallest scaled Jacobian of the quads around v.
     double quality(Index v) const
     {
@@ -106,55 +132,45 @@ private:
 
     /// Means of neighbours do not untangle; where quads are still bad, vertices look around for a
     /// place where the worst quad around them is better.
-    void mend(Index rounds)
+    bool mend()
     {
         constexpr double kBad = 0.25;
-        for (Index round = 0; round < 2 * rounds; ++round) {
-            bool improved = false;
-            for (Index v = 0; v < mesh_.positions.size(); ++v) {
-                if (!fixed_[v] && quality(v) < kBad) {
-                    improved = look_around(
-                                   v, [&](Index w) { return quality(w); }, 1e-3) ||
-                               improved;
-                }
-            }
-            if (!improved) {
-                return;
+        bool improved = false;
+        for (Index v = 0; v < mesh_.positions.size(); ++v) {
+            if (!fixed_[v] && quality(v) < kBad) {
+                improved = look_around(
+                               v, [&](Index w) { return quality(w); }, 1e-3) ||
+                           improved;
             }
         }
+        return improved;
     }
 
     /// The worst quad alone says nothing about the way out where several are folded over each
     /// other: there, a sum over all corners goes down, finite for folded ones (Escobar et al.,
     /// "Simultaneous untangling and smoothing of tetrahedral meshes", 2003).
-    void untangle(Index rounds)
+    bool untangle()
     {
         constexpr double kBad = 0.05;
-        for (Index round = 0; round < rounds; ++round) {
-            std::vector<bool> active(mesh_.positions.size(), false);
-            bool any = false;
-            for (Index v = 0; v < mesh_.positions.size(); ++v) {
-                if (quality(v) < kBad) {
-                    any = true;
-                    for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
-                        for (const Index w : mesh_.quads[quads_[place]]) {
-                            active[w] = true;
-                        }
+        std::vector<bool> active(mesh_.positions.size(), false);
+        for (Index v = 0; v < mesh_.positions.size(); ++v) {
+            if (quality(v) < kBad) {
+                for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+                    for (const Index w : mesh_.quads[quads_[place]]) {
+                        active[w] = true;
                     }
                 }
             }
-            bool improved = false;
-            for (Index v = 0; any && v < mesh_.positions.size(); ++v) {
-                if (active[v] && !fixed_[v]) {
-                    improved = look_around(
-                                   v, [&](Index w) { return -distortion(w); }, 1e-6) ||
-                               improved;
-                }
-            }
-            if (!improved) {
-                return;
+        }
+        bool improved = false;
+        for (Index v = 0; v < mesh_.positions.size(); ++v) {
+            if (active[v] && !fixed_[v]) {
+                improved = look_around(
+                               v, [&](Index w) { return -distortion(w); }, 1e-6) ||
+                           improved;
             }
         }
+        return improved;
     }
 
     /// How far the corners of the quads around v are from those of squares: at a corner with the
@@ -235,18 +251,28 @@ private:
     }
 
     const TriangleMesh& target_;
-    const std::vector<bool>& fixed_;
+    std::vector<bool> fixed_;
+    Index rounds_;
     QuadMesh& mesh_;
+    int stage_ = kSmooth;
+    Index round_ = 0;             // of the stage
     std::vector<Index> offsets_;  // per vertex: its first place in quads_
     std::vector<Index> quads_;
 };
 
-}  // namespace
+QuadRelaxation::QuadRelaxation(const TriangleMesh& target, std::vector<bool> fixed, Index rounds,
+                               QuadMesh& mesh)
+    : implementation_(std::make_unique<Implementation>(target, std::move(fixed), rounds, mesh))
+{}
+QuadRelaxation::~QuadRelaxation() = default;
 
-void relax_quads(const TriangleMesh& target, const std::vector<bool>& fixed, Index rounds,
-                 QuadMesh& mesh)
+bool QuadRelaxation::step()
 {
-    QuadRelaxation(target, fixed, mesh).run(rounds);
+    return implementation_->step();
+}
+double QuadRelaxation::progress() const
+{
+    return implementation_->progress();
 }
 
 std::vector<Vec3> surface_normals(const TriangleMesh& target, const QuadMesh& mesh)

@@ -1,17 +1,33 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "apps/quad_mesh.hh"
 
 namespace layout_embedding {
 
-/// Moves the vertices of `mesh` that are not `fixed` towards the means of their neighbours and back
-/// to the target, one after the other, `rounds` times or until they hardly move. A move is made
-/// only if the smallest scaled Jacobian of the quads around the vertex stays above 0.5 or grows.
-/// Vertices of quads that are still bad then look around themselves for better places.
-void relax_quads(const TriangleMesh& target, const std::vector<bool>& fixed, Index rounds,
-                 QuadMesh& mesh);
+/// Moves the vertices of a quad mesh that are not fixed towards the means of their neighbours and
+/// back to the target, one after the other, `rounds` times or until they hardly move. A move is
+/// made only if the smallest scaled Jacobian of the quads around the vertex stays above 0.5 or
+/// grows. Vertices of quads that are still bad then look around themselves for better places.
+class QuadRelaxation {
+public:
+    /// `target` and `mesh` must outlive this; `fixed` says so of every vertex.
+    QuadRelaxation(const TriangleMesh& target, std::vector<bool> fixed, Index rounds,
+                   QuadMesh& mesh);
+    ~QuadRelaxation();
+
+    /// Does a round; false once there is nothing left to do. The mesh may be left as it is at any
+    /// time.
+    bool step();
+    /// Share of the rounds that are done, at most, in [0, 1].
+    double progress() const;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
 
 /// Per quad, the mean of the target's normals at its corners.
 std::vector<Vec3> surface_normals(const TriangleMesh& target, const QuadMesh& mesh);

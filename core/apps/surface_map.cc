@@ -1,5 +1,7 @@
 #include "apps/surface_map.hh"
 
+#include <algorithm>
+
 #include "maps/exact_location.hh"
 #include "maps/map_checker.hh"
 #include "maps/map_optimisation.hh"
@@ -15,92 +17,173 @@ constexpr double kIsometry = 4;
 
 }  // namespace
 
-Result<SurfaceMap> SurfaceMap::make(std::shared_ptr<const Layout> layout, MappedTarget a,
-                                    MappedTarget b, const SurfaceMapOptions& options)
+SurfaceMapJob::SurfaceMapJob(std::shared_ptr<const Layout> layout, MappedTarget a, MappedTarget b,
+                             const SurfaceMapOptions& options)
+    : targets_{std::move(a), std::move(b)}, options_(options)
 {
-    SurfaceMap map;
-    map.layout_ = std::move(layout);
-    const std::array<EmbeddedTarget, 2> targets{a.embedded, b.embedded};
+    map_.layout_ = std::move(layout);
+}
+
+bool SurfaceMapJob::step()
+{
+    switch (stage_) {
+        case Stage::place:
+            status_ = place();
+            break;
+        case Stage::rounds:
+            status_ = optimise();
+            break;
+        case Stage::paths:
+            status_ = move_paths();
+            break;
+        case Stage::check:
+            status_ = check();
+            break;
+        case Stage::over:
+            return false;
+    }
+    if (!status_) {
+        stage_ = Stage::over;
+    }
+    return stage_ != Stage::over;
+}
+
+double SurfaceMapJob::progress() const
+{
+    if (stage_ == Stage::place || stage_ == Stage::over) {
+        return stage_ == Stage::over ? 1 : 0;
+    }
+    const double share = options_.rounds > 0 ? double(round_) / options_.rounds : 0;
+    return std::min(1.0, (pass_ + share) / (options_.seam_passes + 1));
+}
+
+void SurfaceMapJob::end_optimisation()
+{
+    if (stage_ == Stage::place) {
+        options_.rounds = options_.seam_passes = 0;
+    } else if (stage_ != Stage::over) {
+        stage_ = Stage::check;
+    }
+}
+
+Result<SurfaceMap> SurfaceMapJob::take()
+{
+    if (!status_) {
+        return status_.error();
+    }
+    return std::move(map_);
+}
+
+Status SurfaceMapJob::place()
+{
+    const Layout& layout = *map_.layout_;
+    const std::array<EmbeddedTarget, 2> targets{targets_[0].embedded, targets_[1].embedded};
     std::array<std::vector<Patch>, 2> patches;
     for (std::size_t side = 0; side < 2; ++side) {
-        auto made = patches_of(*map.layout_, *targets[side].refined);
+        auto made = patches_of(layout, *targets[side].refined);
         if (!made) {
             return made.error();
         }
         patches[side] = std::move(*made);
     }
-    const auto domains = common_domains(*map.layout_, targets, patches);
+    const auto domains = common_domains(layout, targets, patches);
     if (!domains) {
         return domains.error();
     }
     for (std::size_t side = 0; side < 2; ++side) {
         auto placed =
-            PlacedTarget::place(*map.layout_, targets[side], std::move(patches[side]), *domains);
+            PlacedTarget::place(layout, targets[side], std::move(patches[side]), *domains);
         if (!placed) {
             return placed.error();
         }
-        map.placed_.push_back(std::move(*placed));
+        map_.placed_.push_back(std::move(*placed));
     }
-    auto made = layout_embedding::overlay(*map.layout_, map.placed_[0], map.placed_[1]);
+    auto made = overlay(layout, map_.placed_[0], map_.placed_[1]);
     if (!made) {
         return made.error();
     }
-    map.overlay_ = std::move(*made);
-    map.distortion_ = map_distortion(map.placed_[0], map.placed_[1], map.overlay_);
-    map.first_distortion_ = map.distortion_;
-    const auto keep_if_better = [&](std::vector<PlacedTarget> moved) -> Result<double> {
-        auto laid = layout_embedding::overlay(*map.layout_, moved[0], moved[1]);
-        if (!laid) {
-            return laid.error();
-        }
-        const MapDistortion distortion = map_distortion(moved[0], moved[1], *laid);
-        const double gain = map.distortion_.mean_energy - distortion.mean_energy;
-        if (gain > 0) {
-            map.placed_ = std::move(moved);
-            map.overlay_ = std::move(*laid);
-            map.distortion_ = distortion;
-        }
-        return gain;
-    };
-    const auto improve_maps = [&]() -> Status {
-        for (Index round = 0; round < options.rounds; ++round) {
-            std::vector<PlacedTarget> moved = map.placed_;
-            MapOptimisation(*map.layout_, moved[0], moved[1]).round();
-            const double excess = map.distortion_.mean_energy - kIsometry;
-            const auto gain = keep_if_better(std::move(moved));
-            if (!gain) {
-                return gain.error();
-            }
-            if (!(*gain > kLeastEnergyGain * excess)) {
-                break;
-            }
-        }
-        return {};
-    };
-    if (const Status status = improve_maps(); !status) {
-        return status.error();
-    }
-    for (Index pass = 0; pass < options.seam_passes; ++pass) {
-        std::vector<PlacedTarget> moved = map.placed_;
-        if (SeamOptimisation(*map.layout_, moved[0], moved[1]).pass() == 0) {
-            break;
-        }
-        if (const auto gain = keep_if_better(std::move(moved)); !gain) {
+    map_.overlay_ = std::move(*made);
+    map_.distortion_ = map_distortion(map_.placed_[0], map_.placed_[1], map_.overlay_);
+    map_.first_distortion_ = map_.distortion_;
+    stage_ = Stage::rounds;
+    return {};
+}
+
+Status SurfaceMapJob::optimise()
+{
+    bool has_gained = false;
+    if (round_ < options_.rounds) {
+        std::vector<PlacedTarget> moved = map_.placed_;
+        MapOptimisation(*map_.layout_, moved[0], moved[1]).round();
+        const double excess = map_.distortion_.mean_energy - kIsometry;
+        const auto gain = keep_if_better(std::move(moved));
+        if (!gain) {
             return gain.error();
         }
-        if (const Status status = improve_maps(); !status) {
-            return status.error();
-        }
+        ++round_;
+        has_gained = *gain > kLeastEnergyGain * excess;
     }
+    if (!has_gained) {
+        stage_ = pass_ < options_.seam_passes ? Stage::paths : Stage::check;
+    }
+    return {};
+}
+
+Status SurfaceMapJob::move_paths()
+{
+    std::vector<PlacedTarget> moved = map_.placed_;
+    if (SeamOptimisation(*map_.layout_, moved[0], moved[1]).pass() == 0) {
+        stage_ = Stage::check;
+        return {};
+    }
+    const auto gain = keep_if_better(std::move(moved));
+    if (!gain) {
+        return gain.error();
+    }
+    ++pass_;
+    round_ = 0;
+    stage_ = Stage::rounds;
+    return {};
+}
+
+Result<double> SurfaceMapJob::keep_if_better(std::vector<PlacedTarget> moved)
+{
+    auto laid = overlay(*map_.layout_, moved[0], moved[1]);
+    if (!laid) {
+        return laid.error();
+    }
+    const MapDistortion distortion = map_distortion(moved[0], moved[1], *laid);
+    const double gain = map_.distortion_.mean_energy - distortion.mean_energy;
+    if (gain > 0) {
+        map_.placed_ = std::move(moved);
+        map_.overlay_ = std::move(*laid);
+        map_.distortion_ = distortion;
+    }
+    return gain;
+}
+
+Status SurfaceMapJob::check()
+{
+    const auto& [a, b] = targets_;
     const CheckReport report =
-        check_maps(*map.layout_, a.landmarks, map.placed_[0], b.landmarks, map.placed_[1]);
+        check_maps(*map_.layout_, a.landmarks, map_.placed_[0], b.landmarks, map_.placed_[1]);
     if (!report.valid()) {
         return make_error(ErrorCode::internal, "the map was refused (" +
                                                    report.violations.front().code +
                                                    "): " + report.violations.front().message);
     }
-    map.find_vertex_images(a.landmarks, b.landmarks);
-    return map;
+    map_.find_vertex_images(a.landmarks, b.landmarks);
+    stage_ = Stage::over;
+    return {};
+}
+
+Result<SurfaceMap> SurfaceMap::make(std::shared_ptr<const Layout> layout, MappedTarget a,
+                                    MappedTarget b, const SurfaceMapOptions& options)
+{
+    SurfaceMapJob job(std::move(layout), std::move(a), std::move(b), options);
+    while (job.step()) {
+    }
+    return job.take();
 }
 
 SurfacePoint SurfaceMap::image(std::size_t side, const SurfacePoint& point) const

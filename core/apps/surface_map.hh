@@ -55,6 +55,8 @@ public:
     const MapDistortion& first_distortion() const { return first_distortion_; }
 
 private:
+    friend class SurfaceMapJob;
+    SurfaceMap() = default;
     void find_vertex_images(const std::vector<Index>& landmarks_a,
                             const std::vector<Index>& landmarks_b);
 
@@ -64,6 +66,41 @@ private:
     Overlay overlay_;
     MapDistortion distortion_;
     MapDistortion first_distortion_;
+};
+
+/// SurfaceMap::make() in steps: the map as the patches are, each round of optimisation, each pass
+/// over the paths, the check.
+class SurfaceMapJob {
+public:
+    SurfaceMapJob(std::shared_ptr<const Layout> layout, MappedTarget a, MappedTarget b,
+                  const SurfaceMapOptions& options = {});
+
+    /// Does some work; false once the job is over.
+    bool step();
+    /// Share of the optimisation that is done, at least, in [0, 1].
+    double progress() const;
+    /// Has the map checked as far as it is optimised by then.
+    void end_optimisation();
+    /// The map, or what went wrong; once, when the job is over.
+    Result<SurfaceMap> take();
+
+private:
+    enum class Stage : std::uint8_t { place, rounds, paths, check, over };
+
+    Status place();
+    Status optimise();
+    Status move_paths();
+    Status check();
+    /// Takes over what has been moved if that has lowered the energy; by how much it has.
+    Result<double> keep_if_better(std::vector<PlacedTarget> moved);
+
+    std::array<MappedTarget, 2> targets_;
+    SurfaceMapOptions options_;
+    SurfaceMap map_;
+    Stage stage_ = Stage::place;
+    Index round_ = 0;  // since the paths were moved
+    Index pass_ = 0;
+    Status status_;
 };
 
 }  // namespace layout_embedding
