@@ -418,14 +418,12 @@ double QuadMeshJob::progress() const
     return job.is_over ? 1 : job.relaxation ? job.relaxation->progress() : 0;
 }
 
-bool QuadMeshJob::has_mesh() const
-{
-    return implementation_->relaxation.has_value();
-}
-
 Result<QuadMesh> QuadMeshJob::take()
 {
     Implementation& job = *implementation_;
+    if (!job.relaxation) {
+        step();
+    }
     if (!job.status) {
         return job.status.error();
     }

@@ -71,9 +71,7 @@ public:
     bool step();
     /// Share of the work that is done, at least, in [0, 1].
     double progress() const;
-    /// Whether there is a mesh that could be taken, relaxed or not.
-    bool has_mesh() const;
-    /// The mesh as far as it is relaxed, or what went wrong; once, after the first step().
+    /// The mesh as far as it is relaxed, or what went wrong; once.
     Result<QuadMesh> take();
 
 private:

@@ -225,9 +225,15 @@ describe("a job", () => {
     });
 
     test("aborted_before_it_starts_is_cancelled_without_search", async () => {
-        const result = await embed(problem, { signal: AbortSignal.abort() });
+        const signal = AbortSignal.abort();
+        await expect(embed(problem, { signal })).rejects.toMatchObject({ code: "cancelled" });
+        const session = await Session.create();
+        await session.loadLayout(problem.layout);
+        await session.loadTarget(problem.target);
+        const result = await session.solve({ signal });
         expect(result.status).toBe("cancelled");
         expect(result.counters.expansions).toBe(0);
+        await session.dispose();
     });
 
     test("stops_at_exactly_the_work_limit", async () => {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "apps/embed_job.hh"
+#include "apps/quad_mesh.hh"
 #include "apps/surface_map.hh"
 #include "base/error.hh"
 #include "embedding/checker.hh"
@@ -78,6 +80,21 @@ struct EmbeddingObject {
     MappedTarget target;
 };
 
+/// A quad mesh that is being made, and what it is made of.
+struct QuadJobObject {
+    std::shared_ptr<const Layout> layout;
+    std::shared_ptr<const TriangleMesh> target;
+    RefinedMesh refined;
+    QuadMeshJob job;
+
+    QuadJobObject(const EmbedJob& embedding, const QuadOptions& options)
+        : layout(embedding.problem().layout),
+          target(embedding.problem().target),
+          refined(*embedding.result().refined),
+          job(*layout, *target, refined, options)
+    {}
+};
+
 /// A claimed embedding on its way to the checker, and the verdict.
 struct CheckObject {
     RefinedMesh refined;
@@ -138,6 +155,20 @@ std::vector<std::vector<T>> unflattened(const T* flat, const Index* offsets, std
         lists[i].assign(flat + offsets[i], flat + offsets[i + 1]);
     }
     return lists;
+}
+
+/// Steps a job of any kind for so many milliseconds at least: 1 while there is more to do.
+template <typename Job>
+std::int32_t step_for(Job& job, double milliseconds)
+{
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    bool more = true;
+    do {
+        more = job.step();
+    } while (more && std::chrono::duration<double, std::milli>(Clock::now() - start).count() <
+                         milliseconds);
+    return static_cast<std::int32_t>(more);
 }
 
 /// Makes `error` the last one.

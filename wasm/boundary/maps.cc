@@ -79,10 +79,11 @@ std::uint32_t boundary_embedding_create(std::uint32_t job)
     });
 }
 
-/// Makes the map between a kept embedding (side 0) and a job's (side 1) of the same layout.
-BOUNDARY_EXPORT(boundary_map_create)
-std::uint32_t boundary_map_create(std::uint32_t embedding, std::uint32_t job, std::uint32_t rounds,
-                                  std::uint32_t seam_passes)
+/// Begins the map between a kept embedding (side 0) and a job's (side 1) of the same layout.
+/// Returns its handle.
+BOUNDARY_EXPORT(boundary_map_job_create)
+std::uint32_t boundary_map_job_create(std::uint32_t embedding, std::uint32_t job,
+                                      std::uint32_t rounds, std::uint32_t seam_passes)
 {
     return guarded(0U, [&] {
         const EmbeddingObject& reference = handles<EmbeddingObject>().get(embedding);
@@ -90,8 +91,40 @@ std::uint32_t boundary_map_create(std::uint32_t embedding, std::uint32_t job, st
         if (other.problem().layout != reference.layout) {
             throw InvalidHandle("the embeddings are of different layouts");
         }
-        auto made = SurfaceMap::make(reference.layout, reference.target, mapped_target(other),
-                                     {rounds, seam_passes});
+        return handles<SurfaceMapJob>().add(std::make_unique<SurfaceMapJob>(
+            reference.layout, reference.target, mapped_target(other),
+            SurfaceMapOptions{rounds, seam_passes}));
+    });
+}
+
+/// Works for so many milliseconds: 1 while there is more to do, kFailed where it went wrong.
+BOUNDARY_EXPORT(boundary_map_job_step)
+std::int32_t boundary_map_job_step(std::uint32_t job, double milliseconds)
+{
+    return guarded(kFailed,
+                   [&] { return step_for(handles<SurfaceMapJob>().get(job), milliseconds); });
+}
+
+/// The share that is done, in [0, 1].
+BOUNDARY_EXPORT(boundary_map_job_progress) double boundary_map_job_progress(std::uint32_t job)
+{
+    return guarded(0.0, [&] { return handles<SurfaceMapJob>().get(job).progress(); });
+}
+
+/// Has the map finished as far as it is optimised.
+BOUNDARY_EXPORT(boundary_map_job_end) std::uint32_t boundary_map_job_end(std::uint32_t job)
+{
+    return guarded(0U, [&] {
+        handles<SurfaceMapJob>().get(job).end_optimisation();
+        return 1U;
+    });
+}
+
+/// The map of a job that is over. Returns its handle.
+BOUNDARY_EXPORT(boundary_map_job_take) std::uint32_t boundary_map_job_take(std::uint32_t job)
+{
+    return guarded(0U, [&] {
+        auto made = handles<SurfaceMapJob>().get(job).take();
         if (!made) {
             set_error(made.error());
             return 0U;

@@ -95,7 +95,8 @@ BOUNDARY_EXPORT(boundary_destroy) void boundary_destroy(std::uint32_t handle)
         handles<JobObject>().destroy(handle) || handles<CheckObject>().destroy(handle) ||
         handles<ReferenceInput>().destroy(handle) || handles<QuadMesh>().destroy(handle) ||
         handles<LandmarkDrag>().destroy(handle) || handles<EmbeddingObject>().destroy(handle) ||
-        handles<SurfaceMap>().destroy(handle);
+        handles<SurfaceMap>().destroy(handle) || handles<SurfaceMapJob>().destroy(handle) ||
+        handles<QuadJobObject>().destroy(handle);
 }
 
 /// Views the name of the last error's code.

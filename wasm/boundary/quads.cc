@@ -13,15 +13,15 @@ const QuadMesh& quad_mesh(std::uint32_t handle)
 
 }  // namespace
 
-/// Makes a quad mesh of a job's embedding. `segments` are `count` pairs of a layout edge and its
+/// Begins a quad mesh of a job's embedding. `segments` are `count` pairs of a layout edge and its
 /// number of segments; an edge length of 0 stands for the default. `same` are `same_count` numbers
 /// of segments of another mesh of the layout, which rule alone if there are any. Returns its
 /// handle.
-BOUNDARY_EXPORT(boundary_quads_create)
-std::uint32_t boundary_quads_create(std::uint32_t job, double edge_length,
-                                    const std::array<Index, 2>* segments, std::size_t count,
-                                    const Index* same, std::size_t same_count,
-                                    std::uint32_t relaxation_rounds)
+BOUNDARY_EXPORT(boundary_quads_job_create)
+std::uint32_t boundary_quads_job_create(std::uint32_t job, double edge_length,
+                                        const std::array<Index, 2>* segments, std::size_t count,
+                                        const Index* same, std::size_t same_count,
+                                        std::uint32_t relaxation_rounds)
 {
     return guarded(0U, [&] {
         const EmbedJob& embedding = handles<JobObject>().get(job).job;
@@ -35,8 +35,31 @@ std::uint32_t boundary_quads_create(std::uint32_t job, double edge_length,
         }
         options.segments_as.assign(same, same + same_count);
         options.relaxation_rounds = relaxation_rounds;
-        auto made = make_quad_mesh(*embedding.problem().layout, *embedding.problem().target,
-                                   *embedding.result().refined, options);
+        return handles<QuadJobObject>().add(std::make_unique<QuadJobObject>(embedding, options));
+    });
+}
+
+/// Works for so many milliseconds: 1 while there is more to do, kFailed where it went wrong.
+BOUNDARY_EXPORT(boundary_quads_job_step)
+std::int32_t boundary_quads_job_step(std::uint32_t job, double milliseconds)
+{
+    return guarded(kFailed,
+                   [&] { return step_for(handles<QuadJobObject>().get(job).job, milliseconds); });
+}
+
+/// The share that is done, in [0, 1].
+BOUNDARY_EXPORT(boundary_quads_job_progress)
+double boundary_quads_job_progress(std::uint32_t job)
+{
+    return guarded(0.0, [&] { return handles<QuadJobObject>().get(job).job.progress(); });
+}
+
+/// Ends the relaxation; the mesh so far is taken.
+BOUNDARY_EXPORT(boundary_quads_job_take)
+std::uint32_t boundary_quads_job_take(std::uint32_t job)
+{
+    return guarded(0U, [&] {
+        auto made = handles<QuadJobObject>().get(job).job.take();
         if (!made) {
             set_error(made.error());
             return 0U;

@@ -32,8 +32,9 @@ export async function batchIn(
         (a, b) => Number(b.name === reference) - Number(a.name === reference),
     );
     let segments: Uint32Array | null = null;
+    const isAborted = () => options.signal?.aborted === true;
     for (const member of order) {
-        if (options.signal?.aborted === true) {
+        if (isAborted()) {
             break;
         }
         const isReference = segments === null && (reference === null || member.name === reference);
@@ -53,6 +54,9 @@ export async function batchIn(
             quadOptions,
             isReference ? "reference" : segments === null ? "alone" : "target",
         );
+        if (isAborted()) {
+            break;
+        }
         if (isReference && products !== null) {
             segments = products.quads.segments;
             row.isReference = true;
@@ -73,13 +77,15 @@ async function runMember(
     const row: BatchRow = { name: member.name, isReference: false, error: null };
     try {
         const { target, landmarks } = await member.load();
+        const { signal } = options;
+        const aborting = signal ? { signal } : {};
         const { vertexCount } = await session.loadTarget(target, {
             repair: options.repair === true,
+            ...aborting,
         });
         row.vertexCount = vertexCount;
         await session.setLandmarks(landmarks);
-        const { signal } = options;
-        const result = await session.solve({ ...options.solve, ...(signal && { signal }) });
+        const result = await session.solve({ ...options.solve, ...aborting });
         row.status = result.status;
         if (result.refined === null) {
             throw javaScriptError(
@@ -93,7 +99,7 @@ async function runMember(
         row.length = result.edges.reduce((sum, edge) => sum + edge.length, 0);
         row.seconds = result.cpuSeconds;
         const files = await session.exportFiles();
-        const quads = await session.quads(quadOptions);
+        const quads = await session.quads({ ...quadOptions, ...aborting });
         row.quads = quads.faces.length;
         row.flippedQuads = quads.statistics.flipped;
         row.leastJacobian = quads.statistics.leastJacobian;
@@ -101,7 +107,10 @@ async function runMember(
         if (role === "reference") {
             await session.setReference();
         }
-        const map = role === "target" ? await session.mapFromReference(options.map) : null;
+        const map =
+            role === "target"
+                ? await session.mapFromReference({ ...options.map, ...aborting })
+                : null;
         if (map !== null) {
             row.energy = map.distortion.meanEnergy;
             row.firstEnergy = map.firstDistortion.meanEnergy;

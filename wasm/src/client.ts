@@ -2,8 +2,8 @@
 // browsers a module worker, in Node a worker thread.
 import type * as WorkerThreads from "node:worker_threads";
 import { batchIn } from "./batch.js";
-import { javaScriptError, LayoutError } from "./errors.js";
-import type { Reply, Request, SessionMethod } from "./protocol.js";
+import { CancelledError, javaScriptError, LayoutError } from "./errors.js";
+import type { Progress, Reply, Request, SessionMethod } from "./protocol.js";
 import { embedIn, mapIn, templateIn } from "./sugar.js";
 import type {
     CandidatePaths,
@@ -15,7 +15,6 @@ import type {
     EmbeddingSession,
     EmbedOptions,
     EmbedProblem,
-    EmbedProgress,
     EmbedResult,
     ExportedFiles,
     ExportFormat,
@@ -44,7 +43,7 @@ import type {
     Violation,
 } from "./types.js";
 
-export { LayoutError } from "./errors.js";
+export { CancelledError, LayoutError } from "./errors.js";
 export { mapFiles } from "./map_files.js";
 export type * from "./types.js";
 
@@ -57,8 +56,17 @@ export interface WorkerOptions {
 interface Pending {
     resolve: (value: unknown) => void;
     reject: (reason: LayoutError) => void;
-    onProgress: ((progress: EmbedProgress) => void) | undefined;
+    onProgress: ((progress: Progress) => void) | undefined;
 }
+
+/** What of a call's options stays on this side. */
+interface Local {
+    signal?: AbortSignal;
+    onProgress?: (progress: never) => void;
+}
+
+/** How many milliseconds an aborted call has for a result of its own. */
+const patience = 50;
 
 /** What both kinds of worker can do. */
 interface Port {
@@ -82,6 +90,8 @@ export function createWorkerClient(options: WorkerOptions = {}): Promise<Embeddi
  */
 export class EmbeddingWorker {
     private readonly pending = new Map<number, Pending>();
+    /** Per session: aborted calls whose promises are settled, but that the worker still ends. */
+    private readonly ending = new Map<number, Promise<unknown>>();
     private port: Port | null = null;
     private lastId = 0;
 
@@ -116,9 +126,7 @@ export class EmbeddingWorker {
             session = id;
             return { kind: "create", id };
         });
-        return new WorkerSession((method, args, options) =>
-            this.call(session, method, args, options),
-        );
+        return new WorkerSession((method, args, local) => this.call(session, method, args, local));
     }
 
     /** Embeds a layout into a target, as embed() of the package does, but in the worker. */
@@ -181,27 +189,75 @@ export class EmbeddingWorker {
         session: number,
         method: SessionMethod,
         args: unknown[],
-        { signal, onProgress }: Pick<SolveOptions, "signal" | "onProgress"> = {},
+        local: Local | null,
     ): Promise<unknown> {
+        const { signal, onProgress } = local ?? {};
         let abort = () => {};
-        const reply = this.send((id) => {
-            abort = () => this.port?.post({ kind: "abort", id });
-            return { kind: "call", id, session, method, args };
-        }, onProgress);
-        if (signal?.aborted === true) {
-            abort();
-        }
-        signal?.addEventListener("abort", abort);
-        try {
-            return await reply;
-        } finally {
-            signal?.removeEventListener("abort", abort);
-        }
+        const start = () =>
+            this.send(
+                (id) => {
+                    abort = () => this.port?.post({ kind: "abort", id });
+                    const abortable = local !== null;
+                    return { kind: "call", id, session, method, args, abortable };
+                },
+                onProgress as Pending["onProgress"],
+            );
+        const before = this.ending.get(session);
+        // Only the end of a session need not wait for its calls.
+        const reply =
+            before === undefined || method === "dispose"
+                ? start()
+                : before.then(() => {
+                      const started = start();
+                      if (signal?.aborted === true) {
+                          abort();
+                      }
+                      return started;
+                  });
+        return signal === undefined
+            ? reply
+            : this.unlessAborted(session, reply, signal, () => {
+                  abort();
+              });
+    }
+
+    /** The reply, or soon after an abort a CancelledError. */
+    private unlessAborted(
+        session: number,
+        reply: Promise<unknown>,
+        signal: AbortSignal,
+        abort: () => void,
+    ): Promise<unknown> {
+        return new Promise((resolve, reject) => {
+            let timer: ReturnType<typeof setTimeout> | undefined;
+            const onAbort = () => {
+                abort();
+                timer = setTimeout(() => {
+                    const ended = reply.catch(() => undefined);
+                    this.ending.set(session, ended);
+                    void ended.then(() => {
+                        if (this.ending.get(session) === ended) {
+                            this.ending.delete(session);
+                        }
+                    });
+                    reject(new CancelledError(reply));
+                }, patience);
+            };
+            if (signal.aborted) {
+                onAbort();
+            } else {
+                signal.addEventListener("abort", onAbort);
+            }
+            reply.then(resolve, reject).finally(() => {
+                clearTimeout(timer);
+                signal.removeEventListener("abort", onAbort);
+            });
+        });
     }
 
     private send(
         request: (id: number) => Request,
-        onProgress?: (progress: EmbedProgress) => void,
+        onProgress?: Pending["onProgress"],
     ): Promise<unknown> {
         const { port } = this;
         if (port === null) {
@@ -236,7 +292,11 @@ export class EmbeddingWorker {
             pending.resolve(reply.value);
         } else {
             const { code, message, details } = reply.error;
-            pending.reject(new LayoutError(code, message, details));
+            pending.reject(
+                code === "cancelled"
+                    ? new CancelledError()
+                    : new LayoutError(code, message, details),
+            );
         }
     }
 
@@ -255,19 +315,19 @@ export class EmbeddingWorker {
 type SessionCall = (
     method: SessionMethod,
     args: unknown[],
-    options?: Pick<SolveOptions, "signal" | "onProgress">,
+    local: Local | null,
 ) => Promise<unknown>;
 
 /** A session in the worker, by messages. */
 class WorkerSession implements EmbeddingSession {
-    constructor(private readonly call: SessionCall) {}
+    constructor(private readonly send: SessionCall) {}
 
     loadLayout(input: MeshInput, options: LoadOptions = {}): Promise<LayoutInfo> {
-        return this.call("loadLayout", [input, options]) as Promise<LayoutInfo>;
+        return this.callWith(options, "loadLayout", input) as Promise<LayoutInfo>;
     }
 
     loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
-        return this.call("loadTarget", [input, options]) as Promise<TargetInfo>;
+        return this.callWith(options, "loadTarget", input) as Promise<TargetInfo>;
     }
 
     inspect(
@@ -275,7 +335,7 @@ class WorkerSession implements EmbeddingSession {
         input: MeshInput,
         options: LoadOptions = {},
     ): Promise<UncheckedMesh> {
-        return this.call("inspect", [role, input, options]) as Promise<UncheckedMesh>;
+        return this.callWith(options, "inspect", role, input) as Promise<UncheckedMesh>;
     }
 
     setLandmarks(input: LandmarkInput, options: LandmarkOptions = {}): Promise<LandmarksInfo> {
@@ -290,17 +350,15 @@ class WorkerSession implements EmbeddingSession {
         landmarks: LandmarkInput,
         options: TemplateOptions = {},
     ): Promise<TemplateLayout> {
-        return this.call("templateLayout", [landmarks, options]) as Promise<TemplateLayout>;
+        return this.callWith(options, "templateLayout", landmarks) as Promise<TemplateLayout>;
     }
 
     solve(options: SolveOptions = {}): Promise<EmbedResult> {
-        const [plain, local] = sendable(options);
-        return this.call("solve", [plain], local) as Promise<EmbedResult>;
+        return this.callWith(options, "solve") as Promise<EmbedResult>;
     }
 
     reshape(shape: PathShape, options: ReshapeOptions = {}): Promise<EmbedResult> {
-        const [plain, local] = sendable(options);
-        return this.call("reshape", [shape, plain], local) as Promise<EmbedResult>;
+        return this.callWith(options, "reshape", shape) as Promise<EmbedResult>;
     }
 
     exportFiles(): Promise<ExportedFiles> {
@@ -315,7 +373,7 @@ class WorkerSession implements EmbeddingSession {
     }
 
     quads(options: QuadOptions = {}): Promise<QuadMesh> {
-        return this.call("quads", [options]) as Promise<QuadMesh>;
+        return this.callWith(options, "quads") as Promise<QuadMesh>;
     }
 
     setReference(): Promise<void> {
@@ -323,7 +381,7 @@ class WorkerSession implements EmbeddingSession {
     }
 
     mapFromReference(options: SurfaceMapOptions = {}): Promise<SurfaceMap> {
-        return this.call("mapFromReference", [options]) as Promise<SurfaceMap>;
+        return this.callWith(options, "mapFromReference") as Promise<SurfaceMap>;
     }
 
     mapPoints(from: "reference" | "target", points: SurfacePoints): Promise<SurfacePoints> {
@@ -352,12 +410,20 @@ class WorkerSession implements EmbeddingSession {
     dispose(): Promise<void> {
         return this.call("dispose", []) as Promise<void>;
     }
-}
 
-/** Options without what cannot be sent, functions and signals, and these. */
-function sendable(options: SolveOptions) {
-    const { signal, onProgress, ...plain } = options;
-    return [plain, { ...(signal && { signal }), ...(onProgress && { onProgress }) }] as const;
+    private call(method: SessionMethod, args: unknown[]): Promise<unknown> {
+        return this.send(method, args, null);
+    }
+
+    /** A call that can be aborted; functions and signals cannot be sent. */
+    private callWith(
+        { signal, onProgress, ...plain }: Local,
+        method: SessionMethod,
+        ...args: unknown[]
+    ): Promise<unknown> {
+        const local = { ...(signal && { signal }), ...(onProgress && { onProgress }) };
+        return this.send(method, [...args, plain], local);
+    }
 }
 
 async function openPort(events: PortEvents): Promise<Port> {

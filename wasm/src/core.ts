@@ -43,6 +43,11 @@ export class Core {
         return this.raw(name, args) !== 0;
     }
 
+    /** Calls a function that returns a number, whatever it is. */
+    number(name: string, ...args: Argument[]): number {
+        return this.raw(name, args);
+    }
+
     /** Frees an object; safe in any state. */
     destroy(handle: Handle | null): void {
         if (handle !== null && !this.crashed) {

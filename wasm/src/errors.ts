@@ -43,6 +43,11 @@ export const javaScriptErrors = [
         advice: "solve, call setReference(), solve with another target, then map",
     },
     {
+        code: "cancelled",
+        meaning: "a call was aborted by its signal",
+        advice: "call again, or wait for the best result so far (CancelledError.late)",
+    },
+    {
         code: "disposed",
         meaning: "the session was disposed of",
         advice: "create another session",
@@ -131,4 +136,21 @@ export function asLayoutError(thrown: unknown): LayoutError {
     }
     const message = thrown instanceof Error ? thrown.message : String(thrown);
     return new LayoutError("internal", `unexpected error: ${message}; report this input as a bug.`);
+}
+
+/** What an aborted call rejects with that has no result to give at once. */
+export class CancelledError extends LayoutError {
+    /**
+     * What the call comes to: of solve(), reshape(), quads() and mapFromReference() the best result so
+     * far, once it is finished. Calls of the same session wait for it. Rejects with `cancelled` where
+     * nothing is left to be finished; never reported as unhandled.
+     */
+    readonly late: Promise<unknown>;
+
+    constructor(late?: Promise<unknown>) {
+        const { code, message } = javaScriptError("cancelled", "the call was aborted");
+        super(code, message);
+        this.late = late ?? Promise.reject(this);
+        this.late.catch(() => undefined);
+    }
 }

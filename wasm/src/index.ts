@@ -24,7 +24,7 @@ import type {
 
 export { init, type InitOptions, type WasmSource } from "./loader.js";
 export { Session } from "./session.js";
-export { LayoutError, type ErrorInfo } from "./errors.js";
+export { CancelledError, LayoutError, type ErrorInfo } from "./errors.js";
 export { batchTable } from "./batch.js";
 export { readReferenceInput } from "./formats.js";
 export { mapFiles } from "./map_files.js";

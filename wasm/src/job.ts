@@ -2,7 +2,8 @@
 // it made.
 import type { Core, Handle } from "./core.js";
 import { drawnPaths } from "./drawn_paths.js";
-import { javaScriptError, LayoutError } from "./errors.js";
+import { LayoutError } from "./errors.js";
+import { assertNotDisposed, defaultSlice, pause } from "./slices.js";
 import type {
     Algorithm,
     BoundScope,
@@ -56,7 +57,6 @@ export const algorithmNames: readonly string[] = algorithms;
 
 const none = 0xffff_ffff;
 const maximalWork = 0xffff_ffff_ffff_ffffn;
-const defaultSlice = 15;
 /** Numbers per event. */
 const eventSize = 7;
 
@@ -209,9 +209,7 @@ export async function runJob(
             seen = reportProgress(core, job, seen, options.onProgress);
         }
         await pause();
-        if (!isAlive()) {
-            throw javaScriptError("disposed", "the session was disposed of while solving");
-        }
+        assertNotDisposed(isAlive);
     }
 }
 
@@ -428,25 +426,4 @@ export function chainLength(positions: ArrayLike<number>, chain: ArrayLike<numbe
 
 function workAmount(limit: number): bigint {
     return limit < 2 ** 63 ? BigInt(Math.floor(limit)) : maximalWork;
-}
-
-/**
- * Resolves after other events had their turn. Not setTimeout(), which browsers delay by
- * milliseconds.
- */
-function pause(): Promise<void> {
-    const { setImmediate } = globalThis as { setImmediate?: (callback: () => void) => void };
-    if (setImmediate !== undefined) {
-        return new Promise((resolve) => {
-            setImmediate(resolve);
-        });
-    }
-    return new Promise((resolve) => {
-        const { port1, port2 } = new MessageChannel();
-        port1.onmessage = () => {
-            port1.close();
-            resolve();
-        };
-        port2.postMessage(null);
-    });
 }

@@ -1,6 +1,7 @@
 // Maps between two targets of one layout, read out of the core. The reference is side 0.
 import type { Core, Handle } from "./core.js";
 import { LayoutError } from "./errors.js";
+import { runToEnd } from "./slices.js";
 import type { MapDistortion, SurfaceMap, SurfaceMapOptions, SurfacePoints } from "./types.js";
 
 const sides = ["reference", "target"] as const;
@@ -10,13 +11,17 @@ export function keepEmbedding(core: Core, job: Handle): Handle {
     return core.call("boundary_embedding_create", job);
 }
 
-/** Maps a kept embedding onto a job's. */
-export function makeMap(
+/**
+ * Maps a kept embedding onto a job's; an aborted signal ends the optimisation. What happens to both
+ * meanwhile does not matter.
+ */
+export async function makeMap(
     core: Core,
     reference: Handle,
     job: Handle,
     options: SurfaceMapOptions,
-): Handle {
+    isAlive: () => boolean,
+): Promise<Handle> {
     const { rounds = 20, seamPasses = 2 } = options;
     for (const [name, value] of Object.entries({ rounds, seamPasses })) {
         if (!(Number.isInteger(value) && value >= 0 && value < 2 ** 31)) {
@@ -26,7 +31,16 @@ export function makeMap(
             );
         }
     }
-    return core.call("boundary_map_create", reference, job, rounds, seamPasses);
+    const making = core.call("boundary_map_job_create", reference, job, rounds, seamPasses);
+    try {
+        if (!(await runToEnd(core, "boundary_map_job", making, options, isAlive))) {
+            core.call("boundary_map_job_end", making);
+            await runToEnd(core, "boundary_map_job", making, {}, isAlive);
+        }
+        return core.call("boundary_map_job_take", making);
+    } finally {
+        core.destroy(making);
+    }
 }
 
 export function readMap(core: Core, map: Handle): SurfaceMap {

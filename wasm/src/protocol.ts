@@ -1,6 +1,9 @@
 // What the page's side (client.ts) and the worker's side (worker.ts) say to each other.
 import type { EmbedProgress, EmbeddingSession } from "./types.js";
 
+/** What a call under way is told of: the state of an embedding, or a share of the work. */
+export type Progress = EmbedProgress | number;
+
 /** A method of a session that runs in the worker. */
 export type SessionMethod = keyof EmbeddingSession;
 
@@ -13,14 +16,22 @@ export type Request =
       }
     /** Makes a session, known by the request's id from then on. */
     | { kind: "create"; id: number }
-    | { kind: "call"; id: number; session: number; method: SessionMethod; args: unknown[] }
-    /** Aborts a solve() or reshape() under way. */
+    /** `abortable`: the last argument are options, to which signal and onProgress are added. */
+    | {
+          kind: "call";
+          id: number;
+          session: number;
+          method: SessionMethod;
+          args: unknown[];
+          abortable: boolean;
+      }
+    /** Aborts a call under way. */
     | { kind: "abort"; id: number };
 
 export type Reply =
     | { kind: "value"; id: number; value: unknown }
     | { kind: "error"; id: number; error: ErrorRecord }
-    | { kind: "progress"; id: number; progress: EmbedProgress };
+    | { kind: "progress"; id: number; progress: Progress };
 
 /** A LayoutError without its class, which messages lose. */
 export interface ErrorRecord {

@@ -1,10 +1,19 @@
 // Quad meshes of an embedding, read out of the core.
 import type { Core, Handle } from "./core.js";
 import { LayoutError } from "./errors.js";
+import { runToEnd } from "./slices.js";
 import type { QuadMesh, QuadOptions } from "./types.js";
 
-/** Makes a quad mesh of a job's embedding. */
-export function makeQuads(core: Core, job: Handle, options: QuadOptions): QuadMesh {
+/**
+ * Makes a quad mesh of a job's embedding, whatever becomes of the job meanwhile; an aborted signal
+ * ends the relaxation.
+ */
+export async function makeQuads(
+    core: Core,
+    job: Handle,
+    options: QuadOptions,
+    isAlive: () => boolean,
+): Promise<QuadMesh> {
     const { edgeLength = 0, segments = [], segmentsAs = [], relaxation = 30 } = options;
     if (options.edgeLength !== undefined && !(edgeLength > 0)) {
         throw new LayoutError(
@@ -19,9 +28,9 @@ export function makeQuads(core: Core, job: Handle, options: QuadOptions): QuadMe
             "segments or relaxation hold something that is no whole number; correct the option.",
         );
     }
-    const mesh = core.withCopies((copy) =>
+    const making = core.withCopies((copy) =>
         core.call(
-            "boundary_quads_create",
+            "boundary_quads_job_create",
             job,
             edgeLength,
             copy(Uint32Array.from(segments.flat())),
@@ -32,9 +41,15 @@ export function makeQuads(core: Core, job: Handle, options: QuadOptions): QuadMe
         ),
     );
     try {
-        return readQuads(core, mesh);
+        await runToEnd(core, "boundary_quads_job", making, options, isAlive);
+        const mesh = core.call("boundary_quads_job_take", making);
+        try {
+            return readQuads(core, mesh);
+        } finally {
+            core.destroy(mesh);
+        }
     } finally {
-        core.destroy(mesh);
+        core.destroy(making);
     }
 }
 

@@ -19,6 +19,7 @@ import { imagesOf, keepEmbedding, makeMap, readMap } from "./maps.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
 import { makeQuads } from "./quads.js";
 import { qualityReport } from "./quality.js";
+import { checkpoint } from "./slices.js";
 import type {
     CandidatePaths,
     DraggedPaths,
@@ -59,9 +60,6 @@ interface Loaded {
     vertexCount: number;
 }
 
-/** What layouts and targets have in common whatever their surface. */
-type CommonInfo = Omit<LayoutInfo, "corners" | "offsets" | "edges" | "positions">;
-
 /** The last embedding, kept for export. */
 interface Solved {
     job: Handle;
@@ -83,6 +81,7 @@ export class Session implements EmbeddingSession {
     private reference: Handle | null = null;
     private map: Handle | null = null;
     private disposed = false;
+    private readonly isAlive = () => !this.disposed;
 
     private constructor(private readonly core: Core) {}
 
@@ -94,11 +93,8 @@ export class Session implements EmbeddingSession {
     async loadLayout(input: MeshInput, options: LoadOptions = {}): Promise<LayoutInfo> {
         const { core } = this;
         const [loaded, common] = await this.load("layout", input, options);
-        const info = {
-            ...common,
-            ...arraysOf(core, loaded.mesh.handle),
-            edges: this.edgesOf(loaded),
-        };
+        const { offsets } = arraysOf(core, loaded.mesh.handle);
+        const info = { ...common, offsets, edges: this.edgesOf(loaded) };
         this.forget(this.layout);
         this.layout = loaded;
         this.landmarks = null;
@@ -109,11 +105,10 @@ export class Session implements EmbeddingSession {
 
     async loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
         const [loaded, common] = await this.load("target", input, options);
-        const { positions, corners } = arraysOf(this.core, loaded.mesh.handle);
         this.forget(this.target);
         this.target = loaded;
         this.landmarks = null;
-        return { ...common, positions, corners };
+        return common;
     }
 
     async inspect(
@@ -220,7 +215,7 @@ export class Session implements EmbeddingSession {
             notes: [...layout.mesh.notes, ...target.mesh.notes, ...landmarks.notes],
         };
         try {
-            await runJob(core, job, options, () => !this.disposed);
+            await runJob(core, job, options, this.isAlive);
             const result = readResult(core, job, layoutEdges, solved.landmarks);
             this.endDrag();
             core.destroy(this.solved?.job ?? null);
@@ -245,7 +240,7 @@ export class Session implements EmbeddingSession {
         this.solved = null;
         solved.options = checked;
         try {
-            await runJob(core, solved.job, options, () => !this.disposed);
+            await runJob(core, solved.job, options, this.isAlive);
             const result = readResult(core, solved.job, solved.layoutEdges, solved.landmarks);
             core.destroy((this.solved as Solved | null)?.job ?? null);
             this.solved = solved;
@@ -274,7 +269,7 @@ export class Session implements EmbeddingSession {
     }
 
     async quads(options: QuadOptions = {}): Promise<QuadMesh> {
-        return Promise.resolve(makeQuads(this.core, this.embeddedJob(), options));
+        return makeQuads(this.core, this.embeddedJob(), options, this.isAlive);
     }
 
     async setReference(): Promise<void> {
@@ -290,10 +285,10 @@ export class Session implements EmbeddingSession {
         if (reference === null) {
             throw javaScriptError("noReference", "no embedding has been made the reference");
         }
-        const map = makeMap(core, reference, job, options);
+        const map = await makeMap(core, reference, job, options, this.isAlive);
         core.destroy(this.map);
         this.map = map;
-        return Promise.resolve(readMap(core, map));
+        return readMap(core, map);
     }
 
     async mapPoints(from: "reference" | "target", points: SurfacePoints): Promise<SurfacePoints> {
@@ -384,12 +379,15 @@ export class Session implements EmbeddingSession {
         return { result, options, inputs, notes, version: core.version() };
     }
 
-    /** Reads, repairs and validates a mesh; leaves nothing behind if that fails. */
+    /**
+     * Reads, repairs and validates a mesh; leaves nothing behind if that fails or is aborted. Nothing
+     * is awaited after the last look at the signal.
+     */
     private async load(
         role: "layout" | "target",
         input: MeshInput,
         options: LoadOptions,
-    ): Promise<[Loaded, CommonInfo]> {
+    ): Promise<[Loaded, TargetInfo]> {
         this.assertAlive();
         const { core } = this;
         const record: InputRecord = { role, name: input.name ?? null, sha256: null };
@@ -397,9 +395,13 @@ export class Session implements EmbeddingSession {
             record.sha256 = await sha256(byteArray(input.bytes, `the ${role}`));
             this.assertAlive();
         }
+        const { signal } = options;
+        await checkpoint(signal, this.isAlive);
         const mesh = readMesh(core, role, input, options.repair === true);
+        let surface: Handle | null = null;
         try {
-            const surface = core.withCopies((copy) => {
+            await checkpoint(signal, this.isAlive);
+            surface = core.withCopies((copy) => {
                 const subject = utf8(mesh.subject);
                 return core.call(
                     `boundary_${role}_create`,
@@ -408,9 +410,12 @@ export class Session implements EmbeddingSession {
                     subject.length,
                 );
             });
+            await checkpoint(signal, this.isAlive);
             const common = this.describe(role, surface, mesh, input.name ?? role);
+            await checkpoint(signal, this.isAlive);
             return [{ mesh, surface, record, vertexCount: common.vertexCount }, common];
         } catch (reason) {
+            core.destroy(surface);
             core.destroy(mesh.handle);
             throw reason;
         }
@@ -421,7 +426,8 @@ export class Session implements EmbeddingSession {
         surface: Handle,
         mesh: LoadedMesh,
         name: string,
-    ): CommonInfo {
+    ): TargetInfo {
+        const { positions, corners } = arraysOf(this.core, mesh.handle);
         this.core.call(`boundary_${role}_counts`, surface);
         const [vertexCount = 0, edgeCount = 0, faceCount = 0, boundaryLoopCount = 0] =
             this.core.viewedDoubles();
@@ -434,6 +440,8 @@ export class Session implements EmbeddingSession {
             boundaryLoopCount,
             vertexMap: mesh.vertexMap?.slice() ?? null,
             notes: [...mesh.notes],
+            positions,
+            corners,
         };
     }
 

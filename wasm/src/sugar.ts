@@ -1,4 +1,4 @@
-import { javaScriptError } from "./errors.js";
+import { CancelledError, javaScriptError } from "./errors.js";
 import type {
     EmbeddingSession,
     EmbedOptions,
@@ -19,14 +19,13 @@ export async function embedIn(
     problem: EmbedProblem,
     options: EmbedOptions,
 ): Promise<EmbedResult> {
-    const { repair, ...solveOptions } = options;
-    const load = { repair: repair === true };
+    const [load, solveOptions] = separated(options);
     await session.loadLayout(problem.layout, load);
     await session.loadTarget(problem.target, load);
     if (problem.landmarks !== undefined) {
         await session.setLandmarks(problem.landmarks);
     }
-    return session.solve(solveOptions);
+    return finished(session.solve(solveOptions));
 }
 
 /**
@@ -38,8 +37,7 @@ export async function mapIn(
     problem: SurfaceMapProblem,
     options: EmbedOptions & SurfaceMapOptions,
 ): Promise<SurfaceMap> {
-    const { repair, rounds, seamPasses, ...solveOptions } = options;
-    const load = { repair: repair === true };
+    const [load, { rounds, seamPasses, ...solveOptions }] = separated(options);
     await session.loadLayout(problem.layout, load);
     for (const role of ["reference", "target"] as const) {
         const { target, landmarks } = problem[role];
@@ -47,7 +45,7 @@ export async function mapIn(
         if (landmarks !== undefined) {
             await session.setLandmarks(landmarks);
         }
-        const { refined, status } = await session.solve(solveOptions);
+        const { refined, status } = await finished(session.solve(solveOptions));
         if (refined === null) {
             throw javaScriptError(
                 "noEmbedding",
@@ -58,10 +56,13 @@ export async function mapIn(
             await session.setReference();
         }
     }
-    return session.mapFromReference({
+    const { signal } = options;
+    const map = session.mapFromReference({
+        ...(signal && { signal }),
         ...(rounds !== undefined && { rounds }),
         ...(seamPasses !== undefined && { seamPasses }),
     });
+    return finished(map);
 }
 
 /** One template layout in a fresh session of either kind. */
@@ -70,8 +71,27 @@ export async function templateIn(
     problem: TemplateProblem,
     options: TemplateOptions & LoadOptions,
 ): Promise<TemplateLayout> {
-    const { repair, ...templateOptions } = options;
-    const target = await session.loadTarget(problem.target, { repair: repair === true });
+    const [load, templateOptions] = separated(options);
+    const target = await session.loadTarget(problem.target, load);
     const layout = await session.templateLayout(problem.landmarks, templateOptions);
     return { ...layout, notes: [...target.notes, ...layout.notes] };
+}
+
+/** What of the options is for loads, and all but that; the signal is for both. */
+function separated<Options extends LoadOptions>({ repair, ...others }: Options) {
+    const { signal } = others;
+    const load: LoadOptions = { repair: repair === true, ...(signal && { signal }) };
+    return [load, others] as const;
+}
+
+/** The session ends with the call, so that nobody could wait for what is late but here. */
+async function finished<Value>(call: Promise<Value>): Promise<Value> {
+    try {
+        return await call;
+    } catch (reason) {
+        if (reason instanceof CancelledError) {
+            return (await reason.late) as Value;
+        }
+        throw reason;
+    }
 }

@@ -44,8 +44,19 @@ export interface LandmarkFile {
 /** One target vertex id per layout vertex, in the order of the layout's vertices. */
 export type LandmarkInput = ArrayLike<number> | LandmarkFile;
 
-/** How a mesh is read. */
-export interface LoadOptions {
+/** How a long call is ended and followed. */
+export interface CallOptions {
+    /**
+     * Ends the call: within 100 ms in a worker, whatever it is at. It rejects with `cancelled` (a
+     * CancelledError, whose `late` is what there is to come) unless it has a result by then.
+     */
+    signal?: AbortSignal;
+    /** Called between slices of work with the share that is done, in [0, 1]. */
+    onProgress?: (progress: number) => void;
+}
+
+/** How a mesh is read. An aborted load changes nothing. */
+export interface LoadOptions extends Pick<CallOptions, "signal"> {
     /**
      * Mends what can be mended safely: exactly coincident vertices are welded, unused vertices and
      * degenerate or duplicate faces removed; `notes` says what was done. Off by default.
@@ -122,7 +133,7 @@ export interface LandmarksInfo {
 }
 
 /** How a layout is made of a target. */
-export interface TemplateOptions extends LandmarkOptions {
+export interface TemplateOptions extends LandmarkOptions, Pick<CallOptions, "signal"> {
     /** Merges pairs of triangles into well-shaped quads. Default: triangles only. */
     quads?: boolean;
 }
@@ -245,7 +256,8 @@ export interface SolveOptions {
     constraints?: readonly PathConstraint[];
     /**
      * Ends the search; the best embedding so far is still finished and returned, with the status
-     * `cancelled`. The promise is not rejected.
+     * `cancelled`. Where that takes a worker more than a moment, as for targets of more than some ten
+     * thousand triangles, the promise is rejected with a CancelledError, whose `late` is that result.
      */
     signal?: AbortSignal;
     /** Called between slices of work, whenever something happened. */
@@ -446,8 +458,8 @@ export interface ExportView {
     width?: number;
 }
 
-/** How fine a quad mesh is. */
-export interface QuadOptions {
+/** How fine a quad mesh is. An aborted `signal` ends its relaxation; the mesh is as far as it is. */
+export interface QuadOptions extends CallOptions {
     /** Wanted length of edges, in the target's units. Default: one that gives about 4000 quads. */
     edgeLength?: number;
     /** Pairs of a layout edge and its number of segments, which rule its whole loops of quads. */
@@ -530,8 +542,8 @@ export interface SurfacePoints {
     barycentrics: Float64Array;
 }
 
-/** How long a map is optimised. */
-export interface SurfaceMapOptions {
+/** How long a map is optimised. An aborted `signal` ends that; the map is as far as it is. */
+export interface SurfaceMapOptions extends CallOptions {
     /** Rounds of optimisation at most; 0 leaves the maps of the patches as they are. Default: 20. */
     rounds?: number;
     /**
@@ -754,16 +766,17 @@ export interface BatchMember {
 }
 
 /** What a batch makes, and how. */
-export interface BatchOptions extends LoadOptions {
+export interface BatchOptions extends Omit<LoadOptions, "signal"> {
     solve?: Omit<SolveOptions, "signal" | "onProgress">;
     /** Numbers of segments follow from the reference. */
-    quads?: Omit<QuadOptions, "segments" | "segmentsAs">;
-    map?: SurfaceMapOptions;
+    quads?: Omit<QuadOptions, "segments" | "segmentsAs" | keyof CallOptions>;
+    map?: Omit<SurfaceMapOptions, keyof CallOptions>;
     /**
      * The member that all others are mapped from. Default: the first one that is embedded. While
      * there is none, members are embedded and get quads of their own.
      */
     reference?: string | null;
+    /** Ends the batch; the member at work gets no row. */
     signal?: AbortSignal;
     /** The row of a member that was done before, or null; it is not done again. */
     known?: (name: string) => BatchRow | null;
@@ -819,5 +832,10 @@ export interface EmbedProblem {
     landmarks?: LandmarkInput;
 }
 
-/** The options of one embedding from beginning to end. */
-export interface EmbedOptions extends SolveOptions, LoadOptions {}
+/**
+ * The options of one embedding from beginning to end. Aborted before the search, it is rejected with
+ * `cancelled`; after that, it ends with the best embedding so far, however long that is finished.
+ */
+export interface EmbedOptions extends SolveOptions, LoadOptions {
+    signal?: AbortSignal;
+}

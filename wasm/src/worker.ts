@@ -3,9 +3,8 @@
 import type { MessagePort } from "node:worker_threads";
 import { asLayoutError, javaScriptError } from "./errors.js";
 import { init } from "./loader.js";
-import { buffersIn, type Reply, type Request } from "./protocol.js";
+import { buffersIn, type Progress, type Reply, type Request } from "./protocol.js";
 import { Session } from "./session.js";
-import type { EmbedProgress, PathShape, ReshapeOptions, SolveOptions } from "./types.js";
 
 type Send = (reply: Reply, transfer: ArrayBuffer[]) => void;
 
@@ -44,14 +43,6 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
                 }
                 throw javaScriptError("disposed", "the session cannot be used any more");
             }
-            if (request.method === "solve") {
-                const options = request.args[0] as SolveOptions;
-                return session.solve({ ...options, ...whileRunning(request.id, send) });
-            }
-            if (request.method === "reshape") {
-                const [shape, options] = request.args as [PathShape, ReshapeOptions];
-                return session.reshape(shape, { ...options, ...whileRunning(request.id, send) });
-            }
             if (request.method === "dispose") {
                 sessions.delete(request.session);
             }
@@ -59,18 +50,22 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
                 string,
                 (...args: unknown[]) => Promise<unknown>
             >;
-            return methods[request.method]?.(...request.args);
+            const args = [...request.args];
+            if (request.abortable) {
+                args.push({ ...(args.pop() as object), ...whileRunning(request.id, send) });
+            }
+            return methods[request.method]?.(...args);
         }
     }
 }
 
-/** The options of a job that stand for what cannot be sent. */
+/** The options of a call that stand for what cannot be sent. */
 function whileRunning(id: number, send: Send) {
     const abort = new AbortController();
     aborts.set(id, abort);
     return {
         signal: abort.signal,
-        onProgress: (progress: EmbedProgress) => {
+        onProgress: (progress: Progress) => {
             send({ kind: "progress", id, progress }, buffersIn(progress));
         },
     };

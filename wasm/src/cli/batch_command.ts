@@ -41,8 +41,7 @@ export async function runBatch(command: BatchCommand): Promise<Outcome> {
             signal: interrupt.signal,
             known: (name) => known.get(name) ?? null,
             onMember: async (row, products) => {
-                // An interrupted search is no result to keep.
-                if (products !== null && !interrupt.signal.aborted) {
+                if (products !== null) {
                     await writeMember(command, row, products, prints.get(row.name) ?? "");
                 }
                 if (!command.quiet && !command.json) {

@@ -19,11 +19,22 @@ import type {
     TemplateOptions,
     UncheckedMesh,
 } from "layout-embedding";
+import { CancelledError } from "layout-embedding/worker";
 
 /** A worker of the package, and how to end it from outside. */
 export interface Worker {
     readonly createSession: () => Promise<EmbeddingSession>;
     readonly terminate: () => void;
+}
+
+/** What a solve() comes to, also where its end has to be waited for after a cancel. */
+async function bestOf(solving: Promise<EmbedResult>): Promise<EmbedResult> {
+    try {
+        return await solving;
+    } catch (error) {
+        if (error instanceof CancelledError) return (await error.late) as EmbedResult;
+        throw error;
+    }
 }
 
 interface Running {
@@ -121,7 +132,7 @@ export class Engine {
 
     async solve(options: SolveOptions): Promise<EmbedResult> {
         this.solvedFor = null;
-        const result = await this.use(({ main }) => main.solve(options));
+        const result = await this.use(({ main }) => bestOf(main.solve(options)));
         if (result.refined) this.solvedFor = result.landmarks;
         return result;
     }
@@ -151,7 +162,7 @@ export class Engine {
                 await (landmarks
                     ? session.setLandmarks(landmarks)
                     : session.landmarksByProximity());
-                const result = await session.solve(options);
+                const result = await bestOf(session.solve(options));
                 return { result, files: result.refined ? await session.exportFiles() : null };
             } finally {
                 await session.dispose().catch(() => undefined);
