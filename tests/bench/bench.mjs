@@ -8,7 +8,7 @@ import { buildPackage, buildPreset, installPackages } from "../../.dev/build.mjs
 import { StepError, main, root } from "../../.dev/run.mjs";
 import { ensureSystemPackages } from "../../.dev/system.mjs";
 import { compare, differences, machineIndependent, update } from "./baseline.mjs";
-import { judge } from "./criteria.mjs";
+import { judge, judgeCancel } from "./criteria.mjs";
 import { filesOf, instances } from "./instances.mjs";
 import { describeMachine, printHeader, printResult, printVerdict } from "./report.mjs";
 
@@ -77,6 +77,11 @@ await main(async () => {
         throw new StepError("no instance was run, so nothing was measured");
     }
     const verdict = options.check ? judge(results) : [];
+    if (options.check && builds.includes("wasm") && options.filter === "") {
+        // Imports the package, which has to be built before.
+        const { cancelTimes } = await import("./cancel.mjs");
+        verdict.push(judgeCancel(await cancelTimes()));
+    }
     if (options.check) {
         printVerdict(verdict);
     }

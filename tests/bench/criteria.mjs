@@ -186,3 +186,11 @@ export function judge(results) {
         return { title, limit, unit, cases, passed: cases.every(({ passed }) => passed) };
     });
 }
+
+/** The same for the times of cancel.mjs, which are no instances. */
+export function judgeCancel(times) {
+    const limit = 100;
+    const cases = times.map(({ name, value }) => ({ name, value, passed: value <= limit }));
+    const passed = cases.every((one) => one.passed);
+    return { title: "an aborted call is settled", limit, unit: "ms", cases, passed };
+}
