@@ -29,6 +29,23 @@ export async function installed(tarball: string, folder: string): Promise<string
 }
 
 /**
+ * The program of another version of Node, from the registry's packages of programs; null where that
+ * is out of reach.
+ */
+export async function otherNode(version: string, folder: string): Promise<string | null> {
+    if (process.versions.node.startsWith(`${version}.`)) return process.execPath;
+    const name = `node-${process.platform}-${process.arch}`;
+    const cwd = path.join(folder, `node${version}`);
+    mkdirSync(cwd);
+    writeFileSync(path.join(cwd, "package.json"), '{ "private": true }');
+    const options = ["--prefer-offline", "--fetch-retries=0", "--no-audit", "--no-fund"];
+    const { exitCode } = await runProgram("npm", ["install", ...options, `${name}@${version}`], {
+        cwd,
+    });
+    return exitCode === 0 ? path.join(cwd, "node_modules", name, "bin/node") : null;
+}
+
+/**
  * The first example in the language `js`, `ts` or `html` that holds `text`, in the package's README
  * or, for `of` "project", in the project's.
  */

@@ -1,6 +1,6 @@
 // A session as one zip file: layout and target as they were given, and session.json for the rest.
 import { strFromU8, strToU8, Unzip, UnzipInflate, unzipSync } from "fflate";
-import type { MeshArrays, MeshFile } from "layout-embedding";
+import type { Algorithm, MeshArrays, MeshFile, PathShape } from "layout-embedding";
 import type { SavedSecond, SavedWork, Source } from "./sources.js";
 import type { Landmarks } from "./landmarks.js";
 import type { RouteRule } from "./routes.js";
@@ -114,8 +114,10 @@ export function unpackSession(name: string, bytes: Uint8Array): UnpackedSession 
         making: document.making === true || (!layout && landmarks !== null),
         quads: document.quads !== false,
         repair: document.repair === true,
-        options: { ...initialState.options, ...document.options },
-        origin: lost.length === 0 ? (document.origin ?? null) : null,
+        options: part("the settings", initialState.options, () =>
+            checkedSettings(document.options),
+        ),
+        origin: lost.length === 0 ? checkedOrigin(document.origin) : null,
         routes: part("the rules for routes", [], () => checkedRoutes(document.routes)),
         second: part("the second target", null, () => secondIn(document.second, files)),
         solved: document.solved === true && layout !== null && target !== null,
@@ -187,7 +189,8 @@ function documentIn(
 }
 
 function contentOf(files: Record<string, Uint8Array>, name: string): Uint8Array<ArrayBuffer> {
-    const content = files[name];
+    // Any word may be asked for, also one that every object knows.
+    const content = Object.hasOwn(files, name) ? files[name] : undefined;
     if (!content) throw new Error(`${name} is missing`);
     return new Uint8Array(content);
 }
@@ -220,12 +223,47 @@ function checkedLandmarks(landmarks: Landmarks | null | undefined): Landmarks | 
     return { places, names, source: String(source) };
 }
 
+function checkedSettings(settings: SessionDocument["options"] | undefined): SavedWork["options"] {
+    const { algorithm, gap, timeLimit, workLimit, seed, shape } = {
+        ...initialState.options,
+        ...settings,
+    };
+    const isAmount = (value: unknown) =>
+        value === null || (typeof value === "number" && value >= 0);
+    const valid =
+        (algorithm === null || isOneOf(algorithms, algorithm)) &&
+        isOneOf(shapes, shape) &&
+        [gap, timeLimit, workLimit].every(isAmount) &&
+        gap !== null &&
+        gap <= 1 &&
+        isId(seed);
+    if (!valid) throw new Error("these are no settings");
+    return { algorithm, gap, timeLimit, workLimit, seed, shape };
+}
+
+function checkedOrigin(origin: SavedWork["origin"] | undefined): SavedWork["origin"] {
+    const { kind, name } = origin ?? {};
+    return (kind === "example" || kind === "shape") && typeof name === "string"
+        ? { kind, name }
+        : null;
+}
+
 function checkedRoutes(routes: readonly RouteRule[] | undefined): readonly RouteRule[] {
     if (routes === undefined) return [];
     if (!isList(routes) || !routes.every(isRoute)) throw new Error("these are no rules");
     return routes;
 }
 
+const algorithms: readonly Algorithm[] = [
+    "greedy",
+    "praun",
+    "kraevoy",
+    "schreiner",
+    "branch-and-bound",
+    "exact",
+];
+const shapes: readonly PathShape[] = ["even", "short", "fair"];
+const isOneOf = (list: readonly string[], value: string) => list.includes(value);
 const isList = (value: unknown): boolean => Array.isArray(value);
 const isId = (value: unknown) => Number.isSafeInteger(value) && (value as number) >= 0;
 const isPoint = (point: readonly unknown[]) =>
