@@ -4,6 +4,8 @@
 #include <chrono>
 #include <ctime>
 
+#include "embedding/angle_refinement.hh"
+#include "embedding/angle_widening.hh"
 #include "embedding/check_input.hh"
 #include "embedding/checker.hh"
 #include "embedding/realisation.hh"
@@ -425,6 +427,7 @@ struct EmbedJob::Implementation {
             }
             measure_edges(*form);
             if (options.shape == PathShape::even) {
+                open_angles(*form, problem.landmarks, StraighteningOptions{}.spacing);
                 cut(*form);
                 return;
             }
@@ -434,7 +437,9 @@ struct EmbedJob::Implementation {
         } else if (fairing ? fairing->step() : straightening->step()) {
             show_shape_progress();
         } else if (fairing) {
-            cut(fairing->take());
+            NormalForm form = fairing->take();
+            open_angles(form, problem.landmarks, FairingOptions{}.spacing);
+            cut(form);
             fairing.reset();
             straightening.reset();
             return;
@@ -482,6 +487,7 @@ struct EmbedJob::Implementation {
             fail(EmbedStatus::failed, refined.error());
             return;
         }
+        refine_thin_triangles(*problem.target, *refined);
         result.refined = std::move(*refined);
         result.quality = triangle_quality(result.refined->positions, result.refined->corners);
         result.cut_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;

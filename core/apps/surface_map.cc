@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "embedding/realisation.hh"
 #include "maps/exact_location.hh"
 #include "maps/map_checker.hh"
 #include "maps/map_optimisation.hh"
 #include "maps/seam_optimisation.hh"
+#include "patches/refined_strands.hh"
 
 namespace layout_embedding {
 namespace {
@@ -77,9 +79,18 @@ Result<SurfaceMap> SurfaceMapJob::take()
 Status SurfaceMapJob::place()
 {
     const Layout& layout = *map_.layout_;
-    const std::array<EmbeddedTarget, 2> targets{targets_[0].embedded, targets_[1].embedded};
+    std::array<EmbeddedTarget, 2> targets{targets_[0].embedded, targets_[1].embedded};
     std::array<std::vector<Patch>, 2> patches;
     for (std::size_t side = 0; side < 2; ++side) {
+        // Where paths move, the mesh is cut anew.
+        const TriangleMesh& target = *targets[side].target;
+        if (has_added_vertices(target, *targets[side].refined)) {
+            auto cut = cut_along(layout, strands_of(target, *targets[side].refined));
+            if (!cut) {
+                return cut.error();
+            }
+            targets[side].refined = std::make_shared<const RefinedMesh>(std::move(*cut));
+        }
         auto made = patches_of(layout, *targets[side].refined);
         if (!made) {
             return made.error();

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "embedding/crossing_room.hh"
-
 namespace layout_embedding {
 
 namespace {
@@ -26,7 +24,7 @@ double EdgeBalancing::length_at(const Vec3& tail, const Vec3& along,
     return sum;
 }
 
-double EdgeBalancing::balance(NormalForm& form, Index edge, double spacing)
+double EdgeBalancing::balance(NormalForm& form, Index edge, const CrossingGaps& gaps)
 {
     const TriangleMesh& mesh = form.mesh();
     const Vec3& tail = mesh.position(mesh.tail(mesh.halfedge(edge)));
@@ -35,7 +33,7 @@ double EdgeBalancing::balance(NormalForm& form, Index edge, double spacing)
     if (!(square > 0)) {
         return 0;
     }
-    const double gap = gap_on_edge(form, edge, spacing);
+    gaps.gather(form, edge, widths_);
     crossings_.clear();
     places_.clear();
     goals_.clear();
@@ -62,12 +60,16 @@ double EdgeBalancing::balance(NormalForm& form, Index edge, double spacing)
         goals_.push_back(curvature > 0 ? x.parameter - slope / curvature : x.parameter);
         weights_.push_back(curvature > 0 ? curvature : 1);
     }
+    double sum = 0;
     for (std::size_t i = 0; i < goals_.size(); ++i) {
-        goals_[i] -= static_cast<double>(i + 1) * gap;
+        sum += widths_[i];
+        goals_[i] -= sum;
     }
-    regression_.fit(goals_, weights_, 0, 1 - spacing);
+    regression_.fit(goals_, weights_, 0, 1 - (sum + widths_.back()));
+    sum = 0;
     for (std::size_t i = 0; i < goals_.size(); ++i) {
-        goals_[i] += static_cast<double>(i + 1) * gap;
+        sum += widths_[i];
+        goals_[i] += sum;
     }
     const double length = length_at(tail, along, places_);
     double share = 1;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "embedding/crossing_room.hh"
 #include "embedding/isotonic.hh"
 #include "embedding/normal_form.hh"
 
@@ -12,10 +13,10 @@ namespace layout_embedding {
 class EdgeBalancing {
 public:
     /// One projected Newton step for the summed length of the segments at the crossings of an edge,
-    /// under the gaps of `spacing`, which hold before and after: the second-order model is
+    /// under the `gaps`, which hold before and after: the second-order model is
     /// separable and its optimum a weighted isotonic regression. Shortened until the length
     /// decreases. Returns the decrease. O(crossings).
-    double balance(NormalForm& form, Index edge, double spacing);
+    double balance(NormalForm& form, Index edge, const CrossingGaps& gaps);
 
 private:
     struct Crossing {
@@ -31,6 +32,7 @@ private:
     std::vector<double> goals_;
     std::vector<double> weights_;
     std::vector<double> tried_;
+    std::vector<double> widths_;
 };
 
 }  // namespace layout_embedding

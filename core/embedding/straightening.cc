@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "embedding/crossing_room.hh"
+#include "embedding/angle_widening.hh"
 
 namespace layout_embedding {
 
@@ -25,7 +25,9 @@ constexpr double kFirstStage = 0.6;
 
 Straightening::Straightening(NormalForm form, const std::vector<Index>& landmarks,
                              StraighteningOptions options)
-    : options_(options),
+    : angles_(form.mesh()),
+      gaps_(options.spacing, options.open_angles ? &angles_ : nullptr),
+      options_(options),
       original_(std::move(form)),
       original_length_(original_.total_length()),
       form_(original_),
@@ -66,7 +68,7 @@ void Straightening::tighten_next()
     if (turn_length_ < 0) {
         turn_length_ = form_.length(strand);
     }
-    tightening_.tighten(form_, strand, kTinySpacing);
+    tightening_.tighten(form_, strand, CrossingGaps(kTinySpacing));
     bool moved = false;
     for (Index id = form_.element(form_.first(strand)).next; form_.element(id).next != kNone;
          id = form_.element(id).next) {
@@ -144,13 +146,17 @@ void Straightening::mark_around(Index vertex)
 
 void Straightening::open_gaps()
 {
-    keep_gaps(form_, options_.spacing);
+    if (options_.open_angles) {
+        relieve_fans(form_, moves_, angles_);
+    }
+    keep_gaps(form_, gaps_);
     progress_ = std::max(progress_, kFirstStage);
     begin_sweep();
 }
 
 void Straightening::begin_sweep()
 {
+    gaps_.prepare(form_);
     crowded_.clear();
     for (Index id = 0; id < form_.element_count(); ++id) {
         const NormalForm::Element& x = form_.element(id);
@@ -165,7 +171,7 @@ void Straightening::begin_sweep()
 
 void Straightening::sweep_strand()
 {
-    tightening_.tighten(form_, current_, options_.spacing);
+    tightening_.tighten(form_, current_, gaps_);
     if (++current_ == form_.strand_count()) {
         stage_ = Stage::edges;
     }
@@ -174,7 +180,7 @@ void Straightening::sweep_strand()
 void Straightening::balance_edges()
 {
     for (const Index edge : crowded_) {
-        balancing_.balance(form_, edge, options_.spacing);
+        balancing_.balance(form_, edge, gaps_);
     }
     ++sweeps_;
     progress_ = std::max(progress_, 1 - (1 - kFirstStage) * 4 / (4.0 + sweeps_));
@@ -203,7 +209,7 @@ bool Straightening::snap_strands()
     }
     if (snapped) {
         // Fewer crossings on an edge keep wider gaps.
-        keep_gaps(form_, options_.spacing);
+        keep_gaps(form_, gaps_);
     }
     return snapped;
 }
@@ -214,10 +220,14 @@ void Straightening::conclude()
         // There is no room for what was gained: shorten without leaving the original's sleeves,
         // where every step is one forward.
         form_ = std::move(original_);
+        gaps_ = CrossingGaps(options_.spacing);
         fixed_ = true;
         sweeps_ = 0;
         begin_sweep();
         return;
+    }
+    if (options_.open_angles) {
+        widen_angles(form_, angles_, options_.spacing, original_length_);
     }
     form_.compact();
     progress_ = 1;
@@ -229,7 +239,7 @@ void Straightening::finish()
     if (stage_ == Stage::done) {
         return;
     }
-    keep_gaps(form_, options_.spacing);
+    keep_gaps(form_, gaps_);
     if (form_.total_length() > original_length_ && !fixed_) {
         form_ = std::move(original_);
     }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "embedding/crossing_room.hh"
 #include "embedding/edge_balancing.hh"
 #include "embedding/normal_form.hh"
 #include "embedding/strand_tightening.hh"
@@ -13,6 +14,9 @@ struct StraighteningOptions {
     /// The share of each edge that is divided among the gaps between its crossings and ends, in
     /// (0, 1). The smaller, the shorter the paths and the thinner the triangles.
     double spacing = 0.25;
+    /// Whether strands also make the wanted angles where they leave vertices and cross edges
+    /// (embedding/angle_widening.hh), at the price of some length.
+    bool open_angles = true;
 };
 
 /// Makes all strands of a normal form as short as they get in their homotopy classes (design,
@@ -34,7 +38,7 @@ public:
     /// for instance after NormalForm::spread_evenly().
     Straightening(NormalForm form, const std::vector<Index>& landmarks,
                   StraighteningOptions options = {});
-    // VertexMoves refers to a member.
+    // Members refer to each other.
     Straightening(const Straightening&) = delete;
     Straightening& operator=(const Straightening&) = delete;
 
@@ -64,6 +68,8 @@ private:
     bool snap_strands();
     void conclude();
 
+    WantedAngles angles_;
+    CrossingGaps gaps_;
     StraighteningOptions options_;
     NormalForm original_;
     double original_length_;

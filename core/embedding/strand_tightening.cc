@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "embedding/crossing_room.hh"
-
 namespace layout_embedding {
 
 namespace {
@@ -38,7 +36,8 @@ bool runs_backwards(const TriangleMesh& mesh, Index halfedge)
 
 }  // namespace
 
-void StrandTightening::unfold(const NormalForm& form, Index from, Index to, double spacing)
+void StrandTightening::unfold(const NormalForm& form, Index from, Index to,
+                              const CrossingGaps& gaps)
 {
     const TriangleMesh& mesh = form.mesh();
     edges_.clear();
@@ -53,7 +52,8 @@ void StrandTightening::unfold(const NormalForm& form, Index from, Index to, doub
     Vec2 head{at.along, at.away};
     for (;;) {
         const Index h = form.element(id).halfedge;
-        const Room room = room_of(form, id, gap_on_edge(form, mesh.edge(h), spacing));
+        const auto [low_gap, high_gap] = gaps.around(form, id);
+        const Room room = room_of(form, id, low_gap, high_gap);
         const bool backwards = runs_backwards(mesh, h);
         const UnfoldedEdge edge{tail, head, id, backwards ? 1 - room.high : room.low,
                                 backwards ? 1 - room.low : room.high};
@@ -103,7 +103,7 @@ void StrandTightening::place(NormalForm& form, std::span<const Bend> bends)
     }
 }
 
-void StrandTightening::tighten(NormalForm& form, Index strand, double spacing)
+void StrandTightening::tighten(NormalForm& form, Index strand, const CrossingGaps& gaps)
 {
     Index from = form.first(strand);
     while (form.element(from).next != kNone) {
@@ -112,7 +112,7 @@ void StrandTightening::tighten(NormalForm& form, Index strand, double spacing)
             while (form.element(to).is_crossing()) {
                 to = form.element(to).next;
             }
-            unfold(form, from, to, spacing);
+            unfold(form, from, to, gaps);
             place(form, funnel_.shortest_path({0, 0}, portals_, end_));
         }
         from = to;

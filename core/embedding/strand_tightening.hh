@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "embedding/crossing_room.hh"
 #include "embedding/funnel.hh"
 #include "embedding/normal_form.hh"
 
@@ -13,8 +14,8 @@ public:
     /// Moves the crossings of a strand to where it is shortest while all other strands stay where
     /// they are and its own vertices are kept: the exact shortest path through the sleeve of faces
     /// between two vertices, unfolded into a plane, with the part of each edge as a portal that
-    /// room_of() allows. O(elements of the strand).
-    void tighten(NormalForm& form, Index strand, double spacing);
+    /// room_of() allows. `gaps` are prepared. O(elements of the strand).
+    void tighten(NormalForm& form, Index strand, const CrossingGaps& gaps);
 
 private:
     /// The edge of a portal, unfolded, from right to left as the strand sees it: from the tail to
@@ -27,7 +28,7 @@ private:
         double high;  // to the head
     };
     /// Unfolds the sleeve from a vertex element to the next one.
-    void unfold(const NormalForm& form, Index from, Index to, double spacing);
+    void unfold(const NormalForm& form, Index from, Index to, const CrossingGaps& gaps);
     /// Moves the crossings between `bends` to the straight lines that join them.
     void place(NormalForm& form, std::span<const Bend> bends);
 

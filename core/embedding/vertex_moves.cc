@@ -46,53 +46,72 @@ Index VertexMoves::vertex_beside(Index crossing, bool towards_tail) const
     return towards_tail ? form_.mesh().tail(h) : form_.mesh().head(h);
 }
 
-Index VertexMoves::snap(Index crossing)
+bool VertexMoves::is_beside(Index element, Index vertex) const
+{
+    return form_.element(element).is_crossing() &&
+           (vertex_beside(element, true) == vertex || vertex_beside(element, false) == vertex);
+}
+
+Index VertexMoves::snap_run(Index crossing, Index vertex, bool only_if_shorter)
 {
     const TriangleMesh& mesh = form_.mesh();
     const Index before = form_.element(crossing).previous;
+    const auto crosses_edge_at_vertex = [&](Index id) {
+        const NormalForm::Element& x = form_.element(id);
+        return x.is_crossing() &&
+               (mesh.tail(x.halfedge) == vertex || mesh.head(x.halfedge) == vertex);
+    };
+    if (crosses_edge_at_vertex(before)) {
+        return kNone;
+    }
+    Index last = crossing;
+    Index after = form_.element(last).next;
+    Vec3 here = form_.position(crossing);
+    double length = (here - form_.position(before)).norm();
+    while (is_beside(after, vertex)) {
+        last = after;
+        after = form_.element(last).next;
+        const Vec3 there = form_.position(last);
+        length += (there - here).norm();
+        here = there;
+    }
+    if (crosses_edge_at_vertex(after)) {
+        return kNone;
+    }
+    length += (form_.position(after) - here).norm();
+    const Vec3& middle = mesh.position(vertex);
+    const double shorter =
+        (middle - form_.position(before)).norm() + (form_.position(after) - middle).norm();
+    if (only_if_shorter && !(shorter < length * (1 - kLeastGain))) {
+        return kNone;
+    }
+    const Index id = form_.snap_to_vertex(crossing, last, vertex);
+    carried_[vertex] = id;
+    return id;
+}
+
+Index VertexMoves::snap(Index crossing)
+{
     for (const bool towards_tail : {true, false}) {
         const Index vertex = vertex_beside(crossing, towards_tail);
-        if (vertex == kNone || !is_free(vertex)) {
-            continue;
+        if (vertex != kNone && is_free(vertex)) {
+            if (const Index id = snap_run(crossing, vertex, true); id != kNone) {
+                return id;
+            }
         }
-        const auto is_beside = [&](Index id) {
-            return form_.element(id).is_crossing() &&
-                   (vertex_beside(id, true) == vertex || vertex_beside(id, false) == vertex);
-        };
-        const auto crosses_edge_at_vertex = [&](Index id) {
-            const NormalForm::Element& x = form_.element(id);
-            return x.is_crossing() &&
-                   (mesh.tail(x.halfedge) == vertex || mesh.head(x.halfedge) == vertex);
-        };
-        if (crosses_edge_at_vertex(before)) {
-            continue;
-        }
-        Index last = crossing;
-        Index after = form_.element(last).next;
-        Vec3 here = form_.position(crossing);
-        double length = (here - form_.position(before)).norm();
-        while (is_beside(after)) {
-            last = after;
-            after = form_.element(last).next;
-            const Vec3 there = form_.position(last);
-            length += (there - here).norm();
-            here = there;
-        }
-        if (crosses_edge_at_vertex(after)) {
-            continue;
-        }
-        length += (form_.position(after) - here).norm();
-        const Vec3& middle = mesh.position(vertex);
-        const double shorter =
-            (middle - form_.position(before)).norm() + (form_.position(after) - middle).norm();
-        if (!(shorter < length * (1 - kLeastGain))) {
-            continue;
-        }
-        const Index id = form_.snap_to_vertex(crossing, last, vertex);
-        carried_[vertex] = id;
-        return id;
     }
     return kNone;
+}
+
+Index VertexMoves::snap_to(Index crossing, Index vertex)
+{
+    if (!is_free(vertex) || !is_beside(crossing, vertex)) {
+        return kNone;
+    }
+    while (is_beside(form_.element(crossing).previous, vertex)) {
+        crossing = form_.element(crossing).previous;
+    }
+    return snap_run(crossing, vertex, false);
 }
 
 Index VertexMoves::outgoing_in_face(Index vertex, Index face) const
@@ -233,6 +252,13 @@ bool VertexMoves::pop_to_side(Index element, bool left, double spacing)
     if (!(length < over_vertex * (1 - kLeastGain))) {
         return false;
     }
+    leave_vertex(element, left);
+    return true;
+}
+
+void VertexMoves::leave_vertex(Index element, bool left)
+{
+    const TriangleMesh& mesh = form_.mesh();
     // A strand that goes counter-clockwise around the vertex leaves the faces right of the edges.
     halfedges_.clear();
     for (const Index h : fan_) {
@@ -242,8 +268,24 @@ bool VertexMoves::pop_to_side(Index element, bool left, double spacing)
         std::reverse(halfedges_.begin(), halfedges_.end());
         std::reverse(distances_.begin(), distances_.end());
     }
-    carried_[vertex] = kNone;
+    carried_[form_.element(element).vertex] = kNone;
     form_.pop_off_vertex(element, halfedges_, distances_);
+}
+
+bool VertexMoves::push_off(Index element, bool left)
+{
+    const NormalForm::Element& e = form_.element(element);
+    gather_fan(e.vertex, left ? e.next : e.previous, left ? e.previous : e.next, left);
+    if (fan_.empty()) {
+        return false;
+    }
+    distances_.clear();
+    for (const Index h : fan_) {
+        distances_.push_back(0.5 * reach_from(e.vertex, form_.mesh().edge(h)));
+    }
+    const Index before = e.previous;
+    leave_vertex(element, left);
+    form_.remove_bigon(before);
     return true;
 }
 

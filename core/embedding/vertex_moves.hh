@@ -31,6 +31,15 @@ public:
     /// Returns the vertex element, or kNone. O(length of the run).
     Index snap(Index crossing);
 
+    /// If nothing lies between the crossing and a free vertex: puts the strand on the vertex, even
+    /// if it gets longer. Returns the vertex element, or kNone. O(length of the run).
+    Index snap_to(Index crossing, Index vertex);
+
+    /// Moves the strand at a vertex element off the vertex to its left or right, even if it gets
+    /// longer, half of the way to what is there; false if there is no edge to cross. O(vertex
+    /// degree).
+    bool push_off(Index element, bool left);
+
     /// If the strand at a vertex element makes an angle below pi on one of its sides there, moves
     /// it off the vertex to this side, to the straight line between the elements before and after
     /// or as near to it as neighbouring crossings allow, but only if it keeps the gaps of `spacing`
@@ -43,6 +52,9 @@ public:
     Index vertex_beside(Index crossing, bool towards_tail) const;
 
 private:
+    bool is_beside(Index element, Index vertex) const;
+    /// Of a crossing that is the first of a run around a free vertex.
+    Index snap_run(Index crossing, Index vertex, bool only_if_shorter);
     /// Lists the outgoing halfedges counter-clockwise around the vertex strictly between the
     /// directions to `from` and `to`: the elements after and before it on its strand for the left
     /// side, the other way round for the right side.
@@ -51,6 +63,8 @@ private:
     /// pi.
     bool unfold_fan(Index vertex, Index from, Index to);
     bool pop_to_side(Index element, bool left, double spacing);
+    /// Puts crossings on the edges of the fan, distances_ from the vertex.
+    void leave_vertex(Index element, bool left);
     /// The part of an edge at the vertex up to its nearest crossing.
     double reach_from(Index vertex, Index edge) const;
     Index outgoing_in_face(Index vertex, Index face) const;

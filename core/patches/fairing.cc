@@ -1,6 +1,7 @@
 #include "patches/fairing.hh"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "embedding/crossing_room.hh"
@@ -18,9 +19,18 @@ namespace {
 /// By how much a trace has to raise the smaller quotient of its patches.
 constexpr double kLeastGain = 0.01;
 constexpr double kRounding = 1e-9;
+/// Traces are jagged where the target's triangles are few or thin. So often all crossings are moved
+/// to shorten the two segments at them, which takes waves of a few edges away and leaves longer
+/// ones, as long as the smallest quotient stays this high.
+constexpr int kSmoothingSweeps = 8;
+constexpr double kKeptQuotient = 0.9;
+/// Patches of a quotient below this one get wider gaps where paths leave them no other room.
+constexpr double kThin = 0.05;
+constexpr double kWidening = 2;
+constexpr int kMostWidenings = 6;
 
 /// Puts strands on the free vertices that their gaps would bend them around.
-void snap_to_vertices(NormalForm& form, double spacing)
+void snap_to_vertices(NormalForm& form, const CrossingGaps& gaps)
 {
     std::vector<Index> landmarks;
     for (Index strand = 0; strand < form.strand_count(); ++strand) {
@@ -42,7 +52,7 @@ void snap_to_vertices(NormalForm& form, double spacing)
     }
     if (any) {
         // Fewer crossings on an edge keep wider gaps.
-        keep_gaps(form, spacing);
+        keep_gaps(form, gaps);
     }
 }
 
@@ -57,12 +67,23 @@ double worst_of(const std::vector<double>& quotients)
     return quotients.empty() ? 0 : *std::min_element(quotients.begin(), quotients.end());
 }
 
+std::vector<double> quotients_of(const Layout& layout, const RefinedMesh& refined)
+{
+    std::vector<double> quotients;
+    for (const PatchShape& shape : patch_shapes(layout, refined)) {
+        quotients.push_back(shape.quotient());
+    }
+    return quotients;
+}
+
 }  // namespace
 
 Fairing::Fairing(const Layout& layout, NormalForm form, FairingOptions options)
     : layout_(layout),
       options_(options),
       original_(std::move(form)),
+      angles_(original_.mesh()),
+      gaps_(options.spacing, &angles_),
       waiting_(layout.edge_count()),
       attempts_(layout.edge_count(), 0)
 {
@@ -85,13 +106,19 @@ bool Fairing::step()
         case Stage::compare:
             compare();
             break;
+        case Stage::widen:
+            widen();
+            break;
+        case Stage::smooth:
+            smooth();
+            break;
         case Stage::done:
             break;
     }
     return stage_ != Stage::done;
 }
 
-std::optional<Fairing::State> Fairing::state_of(std::vector<Path> paths) const
+std::optional<Fairing::State> Fairing::state_of(std::vector<Path> paths, bool make_room) const
 {
     const TriangleMesh& mesh = original_.mesh();
     NormalForm form(mesh, static_cast<Index>(paths.size()));
@@ -124,8 +151,10 @@ std::optional<Fairing::State> Fairing::state_of(std::vector<Path> paths) const
         form.append_to_edge(crossings[i].id);
     }
     form.remove_bigons();
-    keep_gaps(form, options_.spacing);
-    snap_to_vertices(form, options_.spacing);
+    if (make_room) {
+        keep_gaps(form, gaps_);
+        snap_to_vertices(form, gaps_);
+    }
     form.compact();
     auto refined = cut_along(layout_, form);
     if (!refined) {
@@ -135,10 +164,7 @@ std::optional<Fairing::State> Fairing::state_of(std::vector<Path> paths) const
     if (!patches) {
         return std::nullopt;
     }
-    std::vector<double> quotients;
-    for (const PatchShape& shape : patch_shapes(layout_, *refined)) {
-        quotients.push_back(shape.quotient());
-    }
+    std::vector<double> quotients = quotients_of(layout_, *refined);
     for (Index strand = 0; strand < paths.size(); ++strand) {
         paths[strand].clear();
         for (Index id = form.first(strand); id != kNone; id = form.element(id).next) {
@@ -166,11 +192,12 @@ void Fairing::choose()
                 paths[strand].push_back({e.vertex, e.halfedge, e.parameter});
             }
         }
-        state_ = state_of(std::move(paths));
+        state_ = state_of(std::move(paths), false);
         if (!state_) {
             stage_ = Stage::done;
             return;
         }
+        first_quotient_ = worst_of(state_->quotients);
     }
     std::vector<std::pair<double, Index>> order;
     for (Index edge = 0; edge < layout_.edge_count(); ++edge) {
@@ -181,7 +208,7 @@ void Fairing::choose()
     progress_ = std::max(progress_, 1 - static_cast<double>(order.size()) /
                                             std::max(Index{1}, layout_.edge_count()));
     if (order.empty()) {
-        conclude();
+        stage_ = Stage::widen;
         return;
     }
     std::sort(order.begin(), order.end());
@@ -258,7 +285,7 @@ void Fairing::compare()
                 paths[batch_[i]] = traces_[i];
             }
         }
-        return state_of(std::move(paths));
+        return state_of(std::move(paths), true);
     };
     std::vector<bool> chosen;
     for (const Path& path : traces_) {
@@ -291,6 +318,7 @@ void Fairing::compare()
             continue;
         }
         ++kept_;
+        changed_ = true;
         for (const Index side : {2 * batch_[i], 2 * batch_[i] + 1}) {
             for (const Index h : layout_.face_halfedges(layout_.face(side))) {
                 const Index other = Layout::edge(h);
@@ -303,9 +331,82 @@ void Fairing::compare()
     }
 }
 
+void Fairing::widen()
+{
+    const auto worst = std::min_element(state_->quotients.begin(), state_->quotients.end());
+    stage_ = Stage::smooth;
+    if (worst == state_->quotients.end() || *worst >= kThin || rounds_++ == kMostWidenings) {
+        return;
+    }
+    // Those that are nearly as thin would only lose what one of them gains.
+    const auto is_thin = [&](Index face) {
+        return face != kNone && state_->quotients[face] < kWidening * *worst;
+    };
+    const TriangleMesh& mesh = original_.mesh();
+    NormalForm form = state_->form;
+    CrossingGaps gaps = gaps_;
+    for (Index strand = 0; strand < form.strand_count(); ++strand) {
+        for (Index id = form.first(strand); id != kNone; id = form.element(id).next) {
+            const NormalForm::Element& x = form.element(id);
+            if (!x.is_crossing()) {
+                continue;
+            }
+            // The head of the halfedge lies on the left of the strand.
+            const bool along = mesh.halfedge(form.edge(id)) == x.halfedge;
+            for (const bool on_left : {true, false}) {
+                if (!is_thin(layout_.face(2 * strand + (on_left ? 0 : 1)))) {
+                    continue;
+                }
+                const bool towards_tail = on_left != along;
+                const Index beside = towards_tail ? x.edge_previous : x.edge_next;
+                const double other = beside != kNone ? form.element(beside).parameter
+                                     : towards_tail  ? 0
+                                                     : 1;
+                gaps.raise(id, towards_tail, kWidening * std::abs(x.parameter - other));
+            }
+        }
+    }
+    keep_gaps(form, gaps);
+    const auto refined = cut_along(layout_, form);
+    if (!refined) {
+        return;
+    }
+    std::vector<double> quotients = quotients_of(layout_, *refined);
+    if (worst_of(quotients) > (1 + kLeastGain) * *worst) {
+        gaps_ = std::move(gaps);
+        state_->form = std::move(form);
+        state_->quotients = std::move(quotients);
+        changed_ = true;
+        stage_ = Stage::widen;
+    }
+}
+
+void Fairing::smooth()
+{
+    if (!changed_ || sweeps_ == kSmoothingSweeps) {
+        conclude();
+        return;
+    }
+    if (sweeps_++ == 0) {
+        least_quotient_ = std::max(first_quotient_, kKeptQuotient * worst_of(state_->quotients));
+    }
+    NormalForm form = state_->form;
+    for (Index edge = 0; edge < form.mesh().edge_count(); ++edge) {
+        if (form.crossing_count(edge) > 0) {
+            balancing_.balance(form, edge, gaps_);
+        }
+    }
+    const auto refined = cut_along(layout_, form);
+    if (!refined || worst_of(quotients_of(layout_, *refined)) < least_quotient_) {
+        conclude();
+        return;
+    }
+    state_->form = std::move(form);
+}
+
 void Fairing::conclude()
 {
-    if (state_ && kept_ > 0) {
+    if (state_ && changed_) {
         original_ = std::move(state_->form);
     }
     state_.reset();

@@ -3,8 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "embedding/crossing_room.hh"
+#include "embedding/edge_balancing.hh"
 #include "embedding/normal_form.hh"
 #include "embedding/refined_mesh.hh"
+#include "embedding/wanted_angles.hh"
 #include "layout/layout.hh"
 #include "patches/patch.hh"
 
@@ -26,10 +29,11 @@ struct FairingOptions {
 ///
 /// A trace is kept if it raises the smaller isoperimetric quotient of its two patches, by more than
 /// a hundredth, and the smallest of all does not sink. It ends by itself: a path is tried again
-/// only once one of its patches has changed. A patch stays thin where the gaps of many paths over
-/// the same edges leave no room. Paths with the same layout face on both sides, or with none on one
-/// side, stay as they are; so do those whose disk cannot be mapped without flips in double
-/// precision.
+/// only once one of its patches has changed. Patches that stay thin because they lie between many
+/// paths over the same edges then get wider gaps there, and at the end a few sweeps take the jags
+/// out of the traces that come from the triangles they run through. Paths with the same layout face
+/// on both sides, or with none on one side, stay as they are; so do those whose disk cannot be
+/// mapped without flips in double precision.
 ///
 /// Plain doubles, in a fixed order: the same bits on every platform, however the steps are cut into
 /// slices.
@@ -37,6 +41,9 @@ class Fairing {
 public:
     /// `form` is a complete one of the layout's edges; `layout` must outlive this.
     Fairing(const Layout& layout, NormalForm form, FairingOptions options = {});
+    // Members refer to each other.
+    Fairing(const Fairing&) = delete;
+    Fairing& operator=(const Fairing&) = delete;
 
     /// Does a bounded amount of work: traces one path, or cuts the mesh; false once done.
     bool step();
@@ -51,7 +58,7 @@ public:
     NormalForm take();
 
 private:
-    enum class Stage { choose, trace, compare, done };
+    enum class Stage { choose, trace, compare, widen, smooth, done };
 
     /// An element of a strand: a vertex of the target, or a crossing as in NormalForm::Element.
     struct Place {
@@ -70,8 +77,8 @@ private:
         std::vector<double> quotients;  // per layout face
     };
 
-    /// Makes room between crossings and cuts the mesh; nothing if paths meet.
-    std::optional<State> state_of(std::vector<Path> paths) const;
+    /// Cuts the mesh, after making room between crossings if asked to; nothing if paths meet.
+    std::optional<State> state_of(std::vector<Path> paths, bool make_room) const;
     /// Chooses paths that share no patch, those with the worst patches first.
     void choose();
     void trace(Index edge);
@@ -80,11 +87,17 @@ private:
     void compare();
     /// The smaller quotient of the two patches beside an edge.
     double quotient_beside(const State& state, Index edge) const;
+    /// Widens the gaps in which the worst patches lie.
+    void widen();
+    /// Takes the jags out of all paths, a little.
+    void smooth();
     void conclude();
 
     const Layout& layout_;
     FairingOptions options_;
     NormalForm original_;
+    WantedAngles angles_;
+    CrossingGaps gaps_;
     std::optional<State> state_;
     Stage stage_ = Stage::choose;
     std::vector<bool> waiting_;    // per edge
@@ -92,6 +105,12 @@ private:
     std::vector<Index> batch_;     // edges
     std::vector<Path> traces_;     // per edge of the batch; empty without one
     Index kept_ = 0;
+    EdgeBalancing balancing_;
+    bool changed_ = false;
+    int rounds_ = 0;  // of widening
+    int sweeps_ = 0;  // of smoothing
+    double first_quotient_ = 0;
+    double least_quotient_ = 0;  // while smoothing
     double progress_ = 0;
 };
 

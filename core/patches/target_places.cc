@@ -75,12 +75,14 @@ EdgePlace edge_place(const TriangleMesh& target, const RefinedMesh& refined, Ind
 {
     const Index k = vertex - target.vertex_count();
     const auto& barycentrics = refined.vertex_barycentrics[k];
-    // Crossings lie on the halfedge that gives their edge its direction.
-    Index i = 0;
-    while (i < 2 && !(barycentrics[i] > 0 && barycentrics[TriangleMesh::next(i)] > 0)) {
-        ++i;
+    // Vertices on edges lie on the halfedge that gives their edge its direction.
+    for (Index i = 0; i < 3; ++i) {
+        if (barycentrics[TriangleMesh::previous(i)] == 0) {
+            return {target.edge(3 * refined.vertex_faces[k] + i),
+                    barycentrics[TriangleMesh::next(i)]};
+        }
     }
-    return {target.edge(3 * refined.vertex_faces[k] + i), barycentrics[TriangleMesh::next(i)]};
+    return {kNone, 0};
 }
 
 }  // namespace layout_embedding

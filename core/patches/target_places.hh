@@ -40,7 +40,7 @@ private:
 };
 
 /// The edge of the target that a new vertex of a refined mesh lies on, and its parameter there as
-/// in NormalForm::Element.
+/// in NormalForm::Element; no edge for a vertex inside of a face.
 struct EdgePlace {
     Index edge;
     double parameter;

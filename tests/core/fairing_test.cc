@@ -88,8 +88,7 @@ TEST(Fairing, keeps_every_embedding_valid_and_makes_thin_patches_rounder)
         }
     }
     EXPECT_GT(thin, 10);
-    // Dozens of paths over one edge may leave no room.
-    EXPECT_GE(rounder, 0.95 * thin);
+    EXPECT_EQ(rounder, thin);
 }
 
 TEST(Fairing, can_be_ended_after_any_step)
@@ -314,6 +313,27 @@ TEST(QualityReport, straightened_paths_turn_less)
         }
     }
     EXPECT_LT(turning, 0.5 * even_turning);
+}
+
+TEST(QualityReport, fair_paths_turn_at_most_half_as_much_as_jagged_ones)
+{
+    double even_turning = 0;
+    double fair_turning = 0;
+    for (std::size_t i = 0; i < straightened_instances().size(); i += 6) {
+        const Straightened& s = straightened_instances()[i];
+        SCOPED_TRACE(s.instance.name);
+        const Layout& layout = *s.instance.problem.layout;
+        const auto even = realise(s.instance.problem, s.instance.graph, s.instance.weak);
+        ASSERT_TRUE(even.ok());
+        const auto before = quality_report(layout, *even);
+        const auto after = quality_report(layout, cut(layout, fair(layout, s.form)));
+        ASSERT_TRUE(before.ok() && after.ok());
+        for (Index e = 0; e < layout.edge_count(); ++e) {
+            even_turning += before->edges[e].turning;
+            fair_turning += after->edges[e].turning;
+        }
+    }
+    EXPECT_LT(fair_turning, 0.5 * even_turning);
 }
 
 }  // namespace

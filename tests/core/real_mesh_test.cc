@@ -7,12 +7,15 @@
 
 #include "apps/embed_job.hh"
 #include "apps/surface_map.hh"
+#include "embedding/triangle_quality.hh"
 #include "embedding_checks.hh"
+#include "geodesic_reference.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
 #include "layout/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
+#include "patches/patch_shape.hh"
 #include "test_data.hh"
 #include "zoo.hh"
 
@@ -228,6 +231,87 @@ TEST(RealMesh, a_coarse_torus_on_a_fine_one)
     ASSERT_TRUE(landmarks.ok()) << landmarks.error().message;
     const EmbedResult result = embed(layout, target, *landmarks);
     EXPECT_LT(result.gap, 0.1);
+}
+
+double smallest_angle(const TriangleMesh& mesh)
+{
+    return triangle_quality(mesh.positions(), mesh.corners()).smallest_angle;
+}
+
+TEST(RealMesh, all_shapes_have_large_angles_and_short_paths_are_locally_shortest)
+{
+    int compared = 0;
+    for (const std::string file : {"cat-low-resolution.obj",
+                                   "cino_blub_triangulated.obj",
+                                   "cino_cactus.off",
+                                   "cino_humanoid.off",
+                                   "cino_maxFace.obj",
+                                   "demosthenes-low-res.obj",
+                                   "fish.obj",
+                                   "fish_low_resolution.obj",
+                                   "goathead.obj",
+                                   "hand_lowres.obj",
+                                   "human_man.obj",
+                                   "human_woman.obj",
+                                   "koala_low_resolution.obj",
+                                   "penguin.obj",
+                                   "scorpion_low_resolution.obj",
+                                   "skull_low_resolution.obj",
+                                   "spot.obj",
+                                   "spot_fourleg.obj",
+                                   "spot_low_resolution.obj",
+                                   "torus.obj",
+                                   "wingnut.obj"}) {
+        SCOPED_TRACE(file);
+        LAYOUT_EMBEDDING_NEED_DATA("data/" + file);
+        const auto target = target_of(mesh_file("data/" + file));
+        const double angle = smallest_angle(*target);
+        const std::vector<Index> landmarks =
+            farthest_points(*target, 30, target->vertex_count() / 2);
+        const auto made = template_layout(*target, landmarks);
+        ASSERT_TRUE(made.ok()) << made.error().message;
+        auto problem = make_problem(layout_of(made->mesh), target, landmarks);
+        ASSERT_TRUE(problem.ok()) << problem.error().message;
+        EmbedOptions options;
+        options.work_limit = 1'000'000;
+        options.shape = PathShape::even;
+        options.look_for_doubts = false;
+        EmbedJob job(std::move(*problem), options);
+        for (const PathShape shape : {PathShape::even, PathShape::shortened, PathShape::fair}) {
+            SCOPED_TRACE(static_cast<int>(shape));
+            if (shape != PathShape::even) {
+                ASSERT_TRUE(job.reshape(shape));
+            }
+            while (job.step()) {
+            }
+            const EmbedResult& result = job.result();
+            ASSERT_TRUE(result.refined.has_value()) << job.error().message;
+            test::expect_valid(job.problem(), *job.graph(), result.weak, *result.refined);
+            EXPECT_GE(result.quality.smallest_angle, angle / 3);
+            if (shape != PathShape::shortened) {
+                continue;
+            }
+            double length = 0;
+            double shortest = 0;
+            // The comparison takes long on large targets.
+            bool known = target->vertex_count() < 2600;
+            for (std::size_t e = 0; e < result.weak.paths.size(); ++e) {
+                length += chain_length(*result.refined, result.refined->chains[e]);
+                if (known) {
+                    const auto geodesic = test::geodesic_length(job.problem(), *job.graph(),
+                                                                result.weak.paths[e].darts);
+                    known = geodesic.has_value();
+                    shortest += geodesic.value_or(0);
+                }
+            }
+            EXPECT_LE(length, result.cost);
+            if (known) {
+                ++compared;
+                EXPECT_NEAR(length / shortest, 1, 0.01);
+            }
+        }
+    }
+    EXPECT_GE(compared, 4);
 }
 
 TEST(RealMesh, a_map_between_two_people_is_near_to_the_known_correspondence)
