@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <queue>
+#include <span>
 
 #include "embedding/check_input.hh"
 
@@ -43,28 +44,30 @@ std::shared_ptr<const Layout> mirror_image(const Layout& layout)
 /// Distances along the edges of the target from one vertex to some others.
 class EdgeDistances {
 public:
-    EdgeDistances(const TriangleMesh& target, std::vector<Index> goals)
-        : target_(target), goals_(std::move(goals)), is_goal_(target.vertex_count(), false)
+    explicit EdgeDistances(const TriangleMesh& target)
+        : target_(target),
+          is_goal_(target.vertex_count(), false),
+          distances_(target.vertex_count(), std::numeric_limits<double>::infinity())
+    {}
+
+    /// Per goal, all different, in their order; does not look farther than the last of them.
+    std::vector<double> from(Index start, std::span<const Index> goals)
     {
-        for (const Index goal : goals_) {
+        for (const Index goal : goals) {
             is_goal_[goal] = true;
         }
-    }
-
-    /// Per goal, in their order.
-    std::vector<double> from(Index start)
-    {
-        distances_.assign(target_.vertex_count(), std::numeric_limits<double>::infinity());
+        std::vector<Index> reached;
         using Entry = std::pair<double, Index>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
         const auto offer = [&](Index vertex, double distance) {
             if (distance < distances_[vertex]) {
+                reached.push_back(vertex);
                 distances_[vertex] = distance;
                 queue.emplace(distance, vertex);
             }
         };
         offer(start, 0);
-        std::size_t missing = goals_.size();
+        std::size_t missing = goals.size();
         while (!queue.empty() && missing > 0) {
             const auto [distance, vertex] = queue.top();
             queue.pop();
@@ -84,8 +87,12 @@ public:
             }
         }
         std::vector<double> result;
-        for (const Index goal : goals_) {
+        for (const Index goal : goals) {
             result.push_back(distances_[goal]);
+            is_goal_[goal] = false;
+        }
+        for (const Index vertex : reached) {
+            distances_[vertex] = std::numeric_limits<double>::infinity();
         }
         return result;
     }
@@ -97,7 +104,6 @@ private:
     }
 
     const TriangleMesh& target_;
-    std::vector<Index> goals_;
     std::vector<bool> is_goal_;
     std::vector<double> distances_;
 };
@@ -138,15 +144,41 @@ void LandmarkDoubts::propose_exchanges(Length root_bound)
     if (std::uint64_t{count} * problem_.target->vertex_count() > kMaxSettled) {
         return;
     }
-    EdgeDistances distances(*problem_.target, problem_.landmarks);
-    std::vector<std::vector<double>> between;
-    for (Index v = 0; v < count; ++v) {
-        between.push_back(distances.from(problem_.landmarks[v]));
-    }
+    EdgeDistances distances(*problem_.target);
+    // The lengths of all edges, and of those at each vertex.
+    std::vector<double> lengths(layout.edge_count());
+    std::vector<double> around(count, 0);
     double sum = 0;
-    for (Index e = 0; e < layout.edge_count(); ++e) {
-        sum += between[layout.tail(2 * e)][layout.head(2 * e)];
+    for (Index v = 0; v < count; ++v) {
+        std::vector<Index> ends;
+        std::vector<Index> edges;
+        for (const Index h : layout.outgoing(v)) {
+            if (h % 2 == 0) {
+                edges.push_back(Layout::edge(h));
+                ends.push_back(problem_.landmarks[layout.head(h)]);
+            }
+        }
+        const std::vector<double> from_here = distances.from(problem_.landmarks[v], ends);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            lengths[edges[i]] = from_here[i];
+        }
     }
+    for (Index e = 0; e < layout.edge_count(); ++e) {
+        sum += lengths[e];
+        around[layout.tail(2 * e)] += lengths[e];
+        around[layout.head(2 * e)] += lengths[e];
+    }
+    const auto is_worthwhile = [&](double after) {
+        return after < kWorthwhile * sum && share(root_bound, after / sum) < threshold_;
+    };
+    // From landmark to landmark, where it matters.
+    std::vector<std::vector<double>> between(count);
+    const auto between_from = [&](Index v) -> const std::vector<double>& {
+        if (between[v].empty()) {
+            between[v] = distances.from(problem_.landmarks[v], problem_.landmarks);
+        }
+        return between[v];
+    };
     struct Exchange {
         double sum;
         Index a;
@@ -159,17 +191,20 @@ void LandmarkDoubts::propose_exchanges(Length root_bound)
             if (boundary != problem_.target->is_boundary_vertex(problem_.landmarks[b])) {
                 continue;
             }
+            // Only edges at the two can become shorter, and none of them below zero.
+            if (!is_worthwhile(std::max(0.0, sum - around[a] - around[b]))) {
+                continue;
+            }
             double after = sum;
             for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
                 for (const Index h : layout.outgoing(from)) {
                     const Index neighbour = layout.head(h);
                     if (neighbour != to) {
-                        after += between[to][neighbour] - between[from][neighbour];
+                        after += between_from(to)[neighbour] - between_from(from)[neighbour];
                     }
                 }
             }
-            const Length estimate = share(root_bound, after / sum);
-            if (after < kWorthwhile * sum && estimate < threshold_) {
+            if (is_worthwhile(after)) {
                 exchanges.push_back({after, a, b});
             }
         }

@@ -28,7 +28,8 @@ Error fail(ErrorCode code, std::string_view subject, const LineScanner& lines,
 void append_ids(std::string& text, std::span<const Index> ids)
 {
     for (const Index id : ids) {
-        text += " " + std::to_string(id);
+        text += ' ';
+        text += std::to_string(id);
     }
     text += '\n';
 }

@@ -62,7 +62,8 @@ int run(char** arguments)
     }
     std::string order;
     for (const Index edge : result.insertion_order) {
-        order += (order.empty() ? "" : ",") + std::to_string(edge);
+        order += order.empty() ? "" : ",";
+        order += std::to_string(edge);
     }
     std::printf(
         "{\"exactCost\":\"%s\",\"exactLowerBound\":\"%s\",\"insertionOrder\":[%s],"

@@ -236,6 +236,16 @@ describe("a job", () => {
         await session.dispose();
     });
 
+    test("looks_for_what_was_meant_instead_unless_told_not_to", async () => {
+        const faces = octahedron.faces.map((face) => [...face].reverse());
+        const mirrored = { ...problem, layout: arrays({ ...octahedron, faces }) };
+        expect((await embed(mirrored)).doubts).toMatchObject([{ kind: "mirrored" }]);
+        expect((await embed(mirrored, { doubts: false })).doubts).toEqual([]);
+        await expect(embed(problem, { doubts: 1 as never })).rejects.toMatchObject({
+            code: "invalidOption",
+        });
+    });
+
     test("stops_at_exactly_the_work_limit", async () => {
         const result = await embed(
             { ...problem, landmarks: displacedLandmarks },

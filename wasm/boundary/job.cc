@@ -85,11 +85,11 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
                                   const Index* landmarks, std::size_t landmark_count,
                                   std::uint32_t algorithm, double gap, std::uint64_t seed,
                                   double time_limit, std::uint64_t work_limit, double memory_limit,
-                                  std::uint32_t shape, const double* vertex_costs,
-                                  std::size_t vertex_cost_count, double feature_discount,
-                                  const Index* constrained_edges, const std::uint32_t* are_kept,
-                                  const WeakPoint* path_points, const Index* path_offsets,
-                                  std::size_t constraint_count)
+                                  std::uint32_t shape, std::uint32_t look_for_doubts,
+                                  const double* vertex_costs, std::size_t vertex_cost_count,
+                                  double feature_discount, const Index* constrained_edges,
+                                  const std::uint32_t* are_kept, const WeakPoint* path_points,
+                                  const Index* path_offsets, std::size_t constraint_count)
 {
     return guarded(0U, [&] {
         auto problem = make_problem(handles<LayoutObject>().get(layout).layout,
@@ -108,6 +108,7 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
             options.work_limit = work_limit;
         }
         options.shape = static_cast<PathShape>(shape);
+        options.look_for_doubts = look_for_doubts != 0;
         options.memory_limit = memory_limit < static_cast<double>(kAddressableBytes)
                                    ? static_cast<std::uint64_t>(std::max(0.0, memory_limit))
                                    : kAddressableBytes;

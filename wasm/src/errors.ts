@@ -3,6 +3,7 @@
 
 /** What a user can read about an error code. */
 export interface ErrorInfo {
+    /** Stable, camelCase. */
     code: string;
     /** What it means, one clause. */
     meaning: string;
@@ -103,6 +104,7 @@ export type JavaScriptErrorCode = (typeof javaScriptErrors)[number]["code"];
 
 /** The one kind of error this package throws or rejects with. */
 export class LayoutError extends Error {
+    /** Always the same; messages between threads lose the class. */
     override readonly name = "LayoutError";
 
     /**

@@ -16,6 +16,7 @@ export const fileVersion = 1;
 
 /** An input as it was given. */
 export interface InputRecord {
+    /** What it was given as. */
     role: "layout" | "target" | "landmarks";
     /** The file's name; null for arrays, and for landmarks by proximity. */
     name: string | null;
@@ -25,30 +26,60 @@ export interface InputRecord {
 
 /** `embedding.json`. Infinite and unknown numbers are null. */
 export interface EmbeddingDocument {
+    /** Of this format. */
     version: number;
-    solver: { name: string; version: string };
+    /** What made it. */
+    solver: {
+        /** The package. */
+        name: string;
+        /** Its version. */
+        version: string;
+    };
+    /** As in EmbedResult, like what follows up to `cpuSeconds`. */
     status: string;
+    /** In the path-graph metric. */
     cost: number | null;
+    /** In the path-graph metric. */
     lowerBound: number | null;
+    /** (cost - lowerBound) / cost. */
     gap: number | null;
+    /** Which embeddings the bound is for. */
     boundScope: string;
+    /** An integer in decimal digits. */
     exactCost: string | null;
+    /** An integer in decimal digits. */
     exactLowerBound: string;
+    /** By the clock. */
     seconds: number;
+    /** In CPU time. */
     cpuSeconds: number;
+    /** As in SolveOptions, like shape, seed and limits. */
     algorithm: string;
+    /** How the paths run. */
     shape: string;
+    /** A non-negative integer. */
     seed: number;
+    /** What was asked for; null for no limit. */
     limits: {
+        /** The gap at which the search may stop. */
         gap: number;
+        /** Seconds. */
         timeLimit: number | null;
+        /** Units of work. */
         workLimit: number | null;
+        /** Bytes. */
         memoryLimit: number | null;
     };
     /** What paths cost, where that is not their length. */
-    metric: { vertexCosts: number[] | null; featureDiscount: number };
+    metric: {
+        /** Per target vertex. */
+        vertexCosts: number[] | null;
+        /** From 0 to 0.95. */
+        featureDiscount: number;
+    };
     /** What was asked of single paths. */
     constraints: PathConstraint[];
+    /** Layout, target and landmarks. */
     inputs: InputRecord[];
     /** What was repaired or deserves attention. */
     notes: string[];
@@ -56,39 +87,66 @@ export interface EmbeddingDocument {
     doubts: LandmarkDoubt[];
     /** Target vertex per layout vertex. */
     landmarks: number[];
+    /** As EmbedResult.edges. */
     edges: {
+        /** The layout edge. */
         id: number;
+        /** Its two layout vertices. */
         layoutEdge: [number, number];
         /** Vertices of refined.obj, 0-based. */
         chain: number[];
+        /** In the path-graph metric. */
         cost: number;
+        /** On the surface. */
         length: number;
+        /** The length in the shape `even`. */
         evenLength: number;
+        /** The path in the path graph. */
         weakPath: WeakPoint[];
     }[];
     /** The smallest angle of refined.obj's triangles, in degrees, and their smallest area. */
-    quality: { smallestAngle: number; smallestArea: number } | null;
+    quality: {
+        /** In degrees. */
+        smallestAngle: number;
+        /** In the target's units, squared. */
+        smallestArea: number;
+    } | null;
     /** Per triangle of refined.obj: the layout face, null outside all of them. */
     patches: (number | null)[];
+    /** Layout edges in the order in which they were embedded. */
     insertionOrder: number[];
+    /** The same on every machine. */
     counters: EmbedCounters;
+    /** As EmbedResult.events. */
     events: {
+        /** What happened. */
         kind: string;
+        /** What the job was at. */
         phase: string;
+        /** Since the job began. */
         seconds: number;
+        /** Units of work since the job began. */
         work: number;
+        /** Null while there was no embedding. */
         cost: number | null;
+        /** In the path-graph metric. */
         lowerBound: number | null;
     }[];
 }
 
 /** `refined_map.json`: where the refined mesh lies in the target. */
 export interface RefinedMapDocument {
+    /** Of this format. */
     version: number;
     /** The target's vertices, which keep their ids. */
     targetVertexCount: number;
     /** Per new vertex of refined.obj, from that id on: a target face and coordinates in it. */
-    newVertices: { face: number; barycentric: number[] }[];
+    newVertices: {
+        /** The target face. */
+        face: number;
+        /** 3 coordinates, in the order of the face's corners. */
+        barycentric: number[];
+    }[];
     /** Per triangle of refined.obj: its target face. */
     triangleFaces: number[];
 }

@@ -71,6 +71,7 @@ export interface JobOptions {
     seed: number;
     metric: { vertexCosts: Float64Array; featureDiscount: number };
     constraints: readonly PathConstraint[];
+    doubts: boolean;
 }
 
 /** Checks options; throws invalidOption. */
@@ -88,6 +89,7 @@ export function jobOptions(options: SolveOptions): JobOptions {
             featureDiscount: options.metric?.featureDiscount ?? 0,
         },
         constraints: options.constraints ?? [],
+        doubts: options.doubts ?? true,
     };
     const refuse = (name: string, value: unknown, wanted: string) =>
         new LayoutError(
@@ -118,6 +120,9 @@ export function jobOptions(options: SolveOptions): JobOptions {
     }
     if (!(featureDiscount >= 0 && featureDiscount <= 0.95)) {
         throw refuse("metric.featureDiscount", featureDiscount, "a number from 0 to 0.95");
+    }
+    if (typeof (checked.doubts as unknown) !== "boolean") {
+        throw refuse("doubts", checked.doubts, "true or false");
     }
     for (const { rule, edge } of checked.constraints) {
         if ((rule as unknown) !== "keep" && (rule as unknown) !== "avoid") {
@@ -166,6 +171,7 @@ export function createJob(
             workAmount(options.workLimit),
             options.memoryLimit,
             shapes.indexOf(options.shape),
+            options.doubts ? 1 : 0,
             copy(metric.vertexCosts),
             metric.vertexCosts.length,
             metric.featureDiscount,

@@ -18,6 +18,7 @@ export interface MeshArrays {
 
 /** A mesh as the content of a file. */
 export interface MeshFile {
+    /** The content; it is copied, never kept. */
     bytes: Uint8Array | ArrayBuffer;
     /** The file's name: what messages call the mesh, and its ending gives the format. */
     name?: string;
@@ -37,7 +38,9 @@ export type MeshInput = MeshArrays | MeshFile;
  * id go to the nearest vertices of the target.
  */
 export interface LandmarkFile {
+    /** The content. */
     bytes: Uint8Array | ArrayBuffer;
+    /** What messages call the file. */
     name?: string;
 }
 
@@ -73,37 +76,51 @@ export interface UncheckedMesh {
     positions: Float64Array;
     /** Vertex ids per face, and where each face begins (as in MeshArrays). */
     corners: Uint32Array;
+    /** One more number than there are faces. */
     offsets: Uint32Array;
 }
 
 /** A layout as it was read (and repaired). */
 export interface LayoutInfo {
+    /** The file's name, or the one given. */
     name: string;
+    /** After a repair; so are all counts. */
     vertexCount: number;
+    /** Each edge counts once, whatever its faces. */
     edgeCount: number;
+    /** Polygons of any number of sides. */
     faceCount: number;
     /** V - E + F. */
     eulerCharacteristic: number;
+    /** 0 for a closed surface. */
     boundaryLoopCount: number;
     /** 3 coordinates per vertex. */
     positions: Float64Array;
     /** Vertex ids per face, and where each face begins (as in MeshArrays). */
     corners: Uint32Array;
+    /** One more number than there are faces. */
     offsets: Uint32Array;
     /** Two vertex ids per edge; results list edges in this order and direction. */
     edges: Uint32Array;
     /** Per vertex of the input: its id here, -1 where it was removed; null without a repair. */
     vertexMap: Int32Array | null;
+    /** What was repaired, or deserves attention. */
     notes: Notes;
 }
 
 /** A target as it was read (and repaired). */
 export interface TargetInfo {
+    /** The file's name, or the one given. */
     name: string;
+    /** After a repair; so are all counts. */
     vertexCount: number;
+    /** Each edge counts once, whatever its faces. */
     edgeCount: number;
+    /** Triangles. */
     faceCount: number;
+    /** V - E + F. */
     eulerCharacteristic: number;
+    /** 0 for a closed surface. */
     boundaryLoopCount: number;
     /** 3 coordinates per vertex. */
     positions: Float64Array;
@@ -111,6 +128,7 @@ export interface TargetInfo {
     corners: Uint32Array;
     /** Per vertex of the input: its id here, -1 where it was removed; null without a repair. */
     vertexMap: Int32Array | null;
+    /** What was repaired, or deserves attention. */
     notes: Notes;
 }
 
@@ -129,6 +147,7 @@ export interface LandmarksInfo {
     landmarks: Uint32Array;
     /** Their names, "" for none; empty where the input has no names. */
     names: string[];
+    /** What deserves attention, for example how far points were from their vertices. */
     notes: Notes;
 }
 
@@ -144,6 +163,7 @@ export interface TemplateLayout {
     positions: Float64Array;
     /** Vertex ids per face, and where each face begins (as in MeshArrays). */
     corners: Uint32Array;
+    /** One more number than there are faces. */
     offsets: Uint32Array;
     /** The same as the content of an OBJ file. */
     obj: Uint8Array;
@@ -154,7 +174,15 @@ export interface TemplateLayout {
      * regard to the shape of faces, since nothing else was left. Many of the last kind mean that
      * the landmarks hardly describe the shape.
      */
-    removed: { collapses: number; afterFlips: number; inAnyShape: number };
+    removed: {
+        /** Vertices removed by collapses. */
+        collapses: number;
+        /** Vertices removed after edge flips. */
+        afterFlips: number;
+        /** Vertices removed with no regard to the shape of faces. */
+        inAnyShape: number;
+    };
+    /** What deserves attention in target or landmarks. */
     notes: Notes;
 }
 
@@ -201,6 +229,7 @@ export type EmbedPhase = "prepare" | "search" | "realise" | "check" | "done";
  * that it be homotopic to a path (`keep`), or not (`avoid`).
  */
 export interface PathConstraint {
+    /** Whether the path has to be homotopic to `path`, or must not be. */
     rule: "keep" | "avoid";
     /** The layout edge, as in LayoutInfo.edges. */
     edge: number;
@@ -254,6 +283,8 @@ export interface SolveOptions {
      * `{ rule: "avoid", edge: e.id, path: e.weakPath }`, where e is one of the edges of a result.
      */
     constraints?: readonly PathConstraint[];
+    /** Whether to look for what the input may have meant instead (EmbedResult.doubts). Default: true. */
+    doubts?: boolean;
     /**
      * Ends the search; the best embedding so far is still finished and returned, with the status
      * `cancelled`. Where that takes a worker more than a moment, as for targets of more than some ten
@@ -266,7 +297,12 @@ export interface SolveOptions {
      * How much the job does at a time before it lets other events be handled. Has no influence on
      * the result. Default 15 ms.
      */
-    slice?: { milliseconds?: number; work?: number };
+    slice?: {
+        /** By the clock. */
+        milliseconds?: number;
+        /** In units of work. */
+        work?: number;
+    };
 }
 
 /** How reshape() goes; as in SolveOptions. An aborted `signal` leaves the paths as far as they are. */
@@ -284,14 +320,17 @@ export interface Polylines {
 
 /** The state of a running job. */
 export interface EmbedProgress {
+    /** What the job is at. */
     phase: EmbedPhase;
     /** Share of the phase that is done, in [0, 1]. */
     progress: number;
+    /** Since the job began, by the clock. */
     seconds: number;
     /** Units of work so far. */
     work: number;
     /** Infinity while there is no embedding. */
     cost: number;
+    /** In the path-graph metric; 0 while nothing is proved. */
     lowerBound: number;
     /** The best embedding's paths, or those embedded so far; null while unchanged. */
     paths: Polylines | null;
@@ -302,12 +341,19 @@ export type EmbedEventKind = "phase" | "incumbent" | "bound" | "progress";
 
 /** Something that happened, with the state after it. */
 export interface EmbedEvent {
+    /** What happened. */
     kind: EmbedEventKind;
+    /** What the job was at. */
     phase: EmbedPhase;
+    /** Since the job began, by the clock. */
     seconds: number;
+    /** Units of work since the job began. */
     work: number;
+    /** In the path-graph metric; Infinity while there was no embedding. */
     cost: number;
+    /** In the path-graph metric; 0 while nothing was proved. */
     lowerBound: number;
+    /** Share of the phase that was done, in [0, 1]. */
     progress: number;
 }
 
@@ -402,6 +448,7 @@ export interface LandmarkDoubt {
 
 /** What a job has found when it ends, with an embedding or without. */
 export interface EmbedResult {
+    /** Why the job ended. */
     status: EmbedStatus;
     /** In the path-graph metric (see the README); Infinity without an embedding. */
     cost: number;
@@ -409,27 +456,39 @@ export interface EmbedResult {
     lowerBound: number;
     /** (cost - lowerBound) / cost; 1 without an embedding. */
     gap: number;
+    /** Which embeddings `lowerBound` bounds. */
     boundScope: BoundScope;
     /** The cost as the solver adds it up, an integer; null without an embedding. */
     exactCost: bigint | null;
+    /** The lower bound in the same integers. */
     exactLowerBound: bigint;
     /** One per layout edge, in the layout's order; empty without an embedding. */
     edges: EmbeddedEdge[];
     /** Null without an embedding. */
     refined: RefinedMesh | null;
     /** The smallest angle of the refined triangles, in degrees, and their smallest area. */
-    quality: { smallestAngle: number; smallestArea: number } | null;
+    quality: {
+        /** In degrees. */
+        smallestAngle: number;
+        /** In the target's units, squared. */
+        smallestArea: number;
+    } | null;
+    /** Target vertex id per layout vertex. */
     landmarks: Uint32Array;
     /** Layout edges in the order in which they were embedded. */
     insertionOrder: Uint32Array;
+    /** All that happened, oldest first. */
     events: EmbedEvent[];
+    /** The same on every machine, but for a time limit. */
     counters: EmbedCounters;
     /**
      * What the input may have meant instead, at most one doubt. Not looked for after a heuristic,
-     * an aborted solve, or the time limit.
+     * an aborted solve, or the time limit, and where `doubts` is false.
      */
     doubts: LandmarkDoubt[];
+    /** From beginning to end, by the clock. */
     seconds: number;
+    /** The same in CPU time. */
     cpuSeconds: number;
     /** One sentence where the status does not say it all: what did not fit into memory. */
     message: string | null;
@@ -437,8 +496,11 @@ export interface EmbedResult {
 
 /** The files of a finished embedding; their formats are described in the README. */
 export interface ExportedFiles {
+    /** The refined mesh: patches as groups, edges as lines. */
     "refined.obj": Uint8Array;
+    /** Where its vertices and triangles lie in the target (RefinedMapDocument). */
     "refined_map.json": Uint8Array;
+    /** All else that is known of the embedding (EmbeddingDocument). */
     "embedding.json": Uint8Array;
 }
 
@@ -492,18 +554,25 @@ export interface QuadMesh {
     loops: Uint32Array;
     /** Whether the layout had a face without four sides, so that all were subdivided once. */
     subdivided: boolean;
+    /** How good its quads are. */
     statistics: {
         /** Scaled Jacobians: 1 for a rectangle, not positive where a quad is flipped. */
         leastJacobian: number;
+        /** The mean over all quads. */
         meanJacobian: number;
+        /** Quads whose scaled Jacobian is not positive. */
         flipped: number;
         /** Degrees. */
         leastAngle: number;
+        /** Degrees. */
         largestAngle: number;
         /** Root mean square of the differences to 90 degrees. */
         angleDeviation: number;
+        /** Lengths of edges, in the target's units. */
         leastEdge: number;
+        /** The mean of all edges. */
         meanEdge: number;
+        /** The longest edge. */
         largestEdge: number;
     };
     /** As an OBJ file: faces in groups, the base complex as lines. */
@@ -560,6 +629,7 @@ export interface SurfaceMapOptions extends CallOptions {
 export interface MapDistortion {
     /** Symmetric Dirichlet energy, |J|^2 + |J^-1|^2: 4 for an isometry, else more. */
     meanEnergy: number;
+    /** Of a single triangle of the overlay. */
     largestEnergy: number;
     /** Ratio of the larger to the smaller singular value: 1 where angles are kept. */
     meanConformal: number;
@@ -584,14 +654,18 @@ export interface SurfaceMap {
         patches: Uint32Array;
         /** The face of the reference and of the target that each triangle lies in. */
         referenceFaces: Uint32Array;
+        /** The face of the target that each triangle lies in. */
         targetFaces: Uint32Array;
         /** 9 numbers per triangle: the barycentric coordinates of its corners in that face. */
         referenceWeights: Float64Array;
+        /** The same for `targetFaces`. */
         targetWeights: Float64Array;
         /** 3 coordinates per vertex: where it lies on the reference and on the target. */
         referencePositions: Float64Array;
+        /** The same on the target. */
         targetPositions: Float64Array;
     };
+    /** Of the map as it is. */
     distortion: MapDistortion;
     /** Before optimisation. */
     firstDistortion: MapDistortion;
@@ -601,6 +675,7 @@ export interface SurfaceMap {
 export interface QualityReport {
     /** Per layout edge. */
     edges: {
+        /** The layout edge, as in LayoutInfo.edges. */
         id: number;
         /** In the path-graph metric. */
         cost: number;
@@ -617,8 +692,11 @@ export interface QualityReport {
     }[];
     /** Per layout face. */
     patches: {
+        /** The layout face. */
         face: number;
+        /** In the target's units, squared. */
         area: number;
+        /** In the target's units. */
         perimeter: number;
         /** 4 pi area / perimeter squared: 1 for a flat disk, near 0 for a thin patch. */
         isoperimetricQuotient: number;
@@ -631,13 +709,21 @@ export interface QualityReport {
     }[];
     /** Sums over edges and patches, and the worst of the patches. */
     overall: {
+        /** The sum over all edges. */
         cost: number;
+        /** The sum over all edges. */
         evenLength: number;
+        /** The sum over all edges. */
         length: number;
+        /** The sum over all edges, in degrees. */
         turning: number;
+        /** The sum over all patches. */
         area: number;
+        /** The least isoperimetric quotient. */
         leastQuotient: number;
+        /** The mean isoperimetric quotient. */
         meanQuotient: number;
+        /** Null if that of a patch is. */
         largestStretch: number | null;
     };
 }
@@ -646,6 +732,7 @@ export interface QualityReport {
 export interface ReferenceInput {
     /** The files of layout and target, relative to this one. */
     layoutFile: string;
+    /** The file of the target, relative to this one. */
     targetFile: string;
     /** The target vertex of each layout vertex; throws landmarkCount where they don't fit. */
     landmarks: (vertexCount: number) => Uint32Array;
@@ -653,8 +740,17 @@ export interface ReferenceInput {
 
 /** A claimed embedding, to be checked against the session's layout, target and landmarks. */
 export interface EmbeddingClaim {
+    /** As in EmbedResult. */
     refined: RefinedMesh;
-    edges: { layoutEdge: [number, number]; chain: ArrayLike<number>; weakPath: WeakPoint[] }[];
+    /** Each layout edge once, in any order. */
+    edges: {
+        /** Its two layout vertices. */
+        layoutEdge: [number, number];
+        /** Vertex ids of the refined mesh, from landmark to landmark. */
+        chain: ArrayLike<number>;
+        /** As in EmbeddedEdge; both are to be homotopic. */
+        weakPath: WeakPoint[];
+    }[];
 }
 
 /** A reason to refuse an embedding. */
@@ -753,7 +849,9 @@ export interface EmbeddingSession {
 
 /** What templateLayout() makes a layout of. */
 export interface TemplateProblem {
+    /** A triangle mesh. */
     target: MeshInput;
+    /** Which target vertices the layout has. */
     landmarks: LandmarkInput;
 }
 
@@ -762,14 +860,21 @@ export interface BatchMember {
     /** Different from all others. */
     name: string;
     /** Called when it is its turn; may reject. */
-    load: () => Promise<{ target: MeshInput; landmarks: LandmarkInput }>;
+    load: () => Promise<{
+        /** A triangle mesh. */
+        target: MeshInput;
+        /** As for setLandmarks(). */
+        landmarks: LandmarkInput;
+    }>;
 }
 
 /** What a batch makes, and how. */
 export interface BatchOptions extends Omit<LoadOptions, "signal"> {
+    /** For all members. */
     solve?: Omit<SolveOptions, "signal" | "onProgress">;
     /** Numbers of segments follow from the reference. */
     quads?: Omit<QuadOptions, "segments" | "segmentsAs" | keyof CallOptions>;
+    /** For the maps from the reference. */
     map?: Omit<SurfaceMapOptions, keyof CallOptions>;
     /**
      * The member that all others are mapped from. Default: the first one that is embedded. While
@@ -786,47 +891,86 @@ export interface BatchOptions extends Omit<LoadOptions, "signal"> {
 
 /** What is known of a member, as far as it came; energies etc. as in MapDistortion. */
 export interface BatchRow {
+    /** The member's. */
     name: string;
+    /** Whether all others are mapped from this one. */
     isReference: boolean;
-    error: { code: string; message: string } | null;
+    /** What went wrong, as in LayoutError; null if nothing did. */
+    error: {
+        /** Stable, camelCase. */
+        code: string;
+        /** One sentence. */
+        message: string;
+    } | null;
+    /** Of the target. */
     vertexCount?: number;
+    /** Why the search ended. */
     status?: EmbedStatus;
+    /** In the path-graph metric. */
     cost?: number;
+    /** In the path-graph metric. */
     lowerBound?: number;
+    /** As in EmbedResult. */
     gap?: number;
     /** Of all chains, on the surface. */
     length?: number;
     /** CPU seconds of the embedding. */
     seconds?: number;
+    /** How many there are. */
     quads?: number;
+    /** As in QuadMesh.statistics, like the next two. */
     flippedQuads?: number;
+    /** The least of all quads. */
     leastJacobian?: number;
+    /** The mean of all quads. */
     meanJacobian?: number;
     /** Before and after optimisation. */
     firstEnergy?: number;
+    /** The mean energy after optimisation. */
     energy?: number;
+    /** As MapDistortion.meanConformal. */
     conformal?: number;
+    /** As MapDistortion.meanArea. */
     area?: number;
 }
 
 /** What was made of a member; no map for the reference. */
 export interface BatchProducts {
+    /** The embedding. */
     result: EmbedResult;
+    /** What exportFiles() gives. */
     files: ExportedFiles;
+    /** With the connectivity that all members have. */
     quads: QuadMesh;
+    /** From the reference. */
     map: SurfaceMap | null;
 }
 
 /** What mapSurfaces() maps onto each other: two targets of one layout. */
 export interface SurfaceMapProblem {
+    /** Embedded in both targets. */
     layout: MeshInput;
-    reference: { target: MeshInput; landmarks?: LandmarkInput };
-    target: { target: MeshInput; landmarks?: LandmarkInput };
+    /** What is mapped; default landmarks: by proximity. */
+    reference: {
+        /** A triangle mesh. */
+        target: MeshInput;
+        /** As for setLandmarks(). */
+        landmarks?: LandmarkInput;
+    };
+    /** What it is mapped to. */
+    target: {
+        /** A triangle mesh. */
+        target: MeshInput;
+        /** As for setLandmarks(). */
+        landmarks?: LandmarkInput;
+    };
 }
 
 /** What embed() embeds where. */
 export interface EmbedProblem {
+    /** Polygons, read for their connectivity. */
     layout: MeshInput;
+    /** A triangle mesh. */
     target: MeshInput;
     /** Default: by proximity. */
     landmarks?: LandmarkInput;
