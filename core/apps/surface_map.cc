@@ -116,8 +116,18 @@ Status SurfaceMapJob::place()
     map_.overlay_ = std::move(*made);
     map_.distortion_ = map_distortion(map_.placed_[0], map_.placed_[1], map_.overlay_);
     map_.first_distortion_ = map_.distortion_;
-    stage_ = Stage::rounds;
+    // Where paths may move they do so first: the way to good maps is shorter than from maps that
+    // are good for paths in bad places.
+    stage_ = options_.seam_passes > 0 ? Stage::paths : Stage::rounds;
     return {};
+}
+
+/// Judged by places alone, the first pass leads out of bad maps that samples hold back; the others
+/// lower what it left between places.
+MapEnergy SurfaceMapJob::judged_by() const
+{
+    const Index passes_begun = stage_ == Stage::paths ? pass_ + 1 : pass_;
+    return passes_begun == 1 ? MapEnergy::places : MapEnergy::places_and_samples;
 }
 
 Status SurfaceMapJob::optimise()
@@ -125,7 +135,7 @@ Status SurfaceMapJob::optimise()
     bool has_gained = false;
     if (round_ < options_.rounds) {
         std::vector<PlacedTarget> moved = map_.placed_;
-        MapOptimisation(*map_.layout_, moved[0], moved[1]).round();
+        MapOptimisation(*map_.layout_, moved[0], moved[1], judged_by()).round();
         const double excess = map_.distortion_.mean_energy - kIsometry;
         const auto gain = keep_if_better(std::move(moved));
         if (!gain) {
@@ -143,7 +153,7 @@ Status SurfaceMapJob::optimise()
 Status SurfaceMapJob::move_paths()
 {
     std::vector<PlacedTarget> moved = map_.placed_;
-    if (SeamOptimisation(*map_.layout_, moved[0], moved[1]).pass() == 0) {
+    if (SeamOptimisation(*map_.layout_, moved[0], moved[1], judged_by()).pass() == 0) {
         stage_ = Stage::check;
         return {};
     }

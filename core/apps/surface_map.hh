@@ -7,6 +7,7 @@
 #include "base/result.hh"
 #include "layout/layout.hh"
 #include "maps/map_distortion.hh"
+#include "maps/moving_patch.hh"
 #include "maps/overlay.hh"
 #include "maps/placed_target.hh"
 
@@ -15,7 +16,7 @@ namespace layout_embedding {
 struct SurfaceMapOptions {
     /// Rounds of optimisation at most (maps/map_optimisation.hh); 0 leaves the maps of the patches
     /// as they are.
-    Index rounds = 20;
+    Index rounds = 5;
     /// How often all paths are moved at most (maps/seam_optimisation.hh), each time followed by
     /// such rounds; 0 keeps the paths of the embeddings.
     Index seam_passes = 2;
@@ -88,6 +89,7 @@ private:
     enum class Stage : std::uint8_t { place, rounds, paths, check, over };
 
     Status place();
+    MapEnergy judged_by() const;
     Status optimise();
     Status move_paths();
     Status check();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "maps/map_distortion.hh"
 #include "maps/moving_patch.hh"
 
 namespace layout_embedding {
@@ -17,23 +18,42 @@ constexpr int kShareHalvings = 8;
 class MovingTarget {
 public:
     MovingTarget(const Layout& layout, PlacedTarget& moving, const PlacedTarget& fixed,
-                 double scale, bool moves_a, const std::vector<bool>& faces)
-        : layout_(layout), moving_(moving), patches_(layout.face_count())
+                 double scale, bool moves_a, MapEnergy judged_by, const std::vector<bool>& faces)
+        : layout_(layout),
+          moving_(moving),
+          fixed_(fixed),
+          scale_(scale),
+          moves_a_(moves_a),
+          patches_(layout.face_count())
     {
         for (Index face = 0; face < layout.face_count(); ++face) {
             if (faces[face]) {
                 patches_[face].emplace(moving.patches()[face], moving.positions(face),
-                                       fixed.patches()[face], fixed.positions(face), scale,
-                                       moves_a);
+                                       fixed.patches()[face], fixed.positions(face), scale, moves_a,
+                                       judged_by);
             }
         }
     }
 
-    void improve_inside()
+    /// What lowers the energy as MovingPatch sees it need not lower the exact one: where it does
+    /// not, a patch stays if `is_exact`.
+    void improve_inside(bool is_exact)
     {
-        for (auto& patch : patches_) {
-            if (patch) {
-                patch->improve_all();
+        for (Index face = 0; face < layout_.face_count(); ++face) {
+            if (!patches_[face]) {
+                continue;
+            }
+            if (!is_exact) {
+                patches_[face]->improve_all();
+                continue;
+            }
+            const std::vector<PlanePoint> before = patches_[face]->points();
+            const double energy = exact_energy(face);
+            patches_[face]->improve_all();
+            moving_.set_points(face, patches_[face]->points());
+            if (!(exact_energy(face) < energy)) {
+                moving_.set_points(face, before);
+                patches_[face]->set_points(before);
             }
         }
     }
@@ -72,6 +92,14 @@ private:
         std::array<std::int64_t, 2> from;
         std::array<std::int64_t, 2> step;
     };
+
+    double exact_energy(Index face) const
+    {
+        const PlacedTarget& a = moves_a_ ? moving_ : fixed_;
+        const PlacedTarget& b = moves_a_ ? fixed_ : moving_;
+        return patch_energy(a.patches()[face], a.positions(face), b.patches()[face],
+                            b.positions(face), moves_a_ ? scale_ : 1 / scale_);
+    }
 
     /// Finds the sides that an edge is.
     void find_beside(Index edge)
@@ -169,6 +197,9 @@ private:
 
     const Layout& layout_;
     PlacedTarget& moving_;
+    const PlacedTarget& fixed_;
+    double scale_;
+    bool moves_a_;
     std::vector<std::optional<MovingPatch>> patches_;  // per layout face
     // Of the chain that is being improved.
     std::vector<Beside> beside_;
@@ -194,16 +225,18 @@ double area_ratio(const PlacedTarget& a, const PlacedTarget& b)
     return area_of_patches(a) / area_of_patches(b);
 }
 
-MapOptimisation::MapOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b)
-    : layout_(layout), targets_{&a, &b}, scale_(area_ratio(a, b))
+MapOptimisation::MapOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b,
+                                 MapEnergy judged_by)
+    : layout_(layout), targets_{&a, &b}, scale_(area_ratio(a, b)), judged_by_(judged_by)
 {}
 
-void MapOptimisation::round(const std::vector<bool>& faces, const std::vector<bool>& edges)
+void MapOptimisation::move(const std::vector<bool>& faces, const std::vector<bool>& edges,
+                           bool is_exact)
 {
     for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
         MovingTarget moving(layout_, *targets_[side], *targets_[1 - side],
-                            side == 0 ? scale_ : 1 / scale_, side == 0, faces);
-        moving.improve_inside();
+                            side == 0 ? scale_ : 1 / scale_, side == 0, judged_by_, faces);
+        moving.improve_inside(is_exact);
         moving.improve_chains(edges);
         moving.finish();
     }

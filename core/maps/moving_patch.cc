@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "patches/newton_step.hh"
+
 namespace layout_embedding {
 namespace {
 
@@ -13,42 +15,35 @@ constexpr std::array<std::array<double, 3>, 4> kSamples{{{1.0 / 3, 1.0 / 3, 1.0 
                                                          {1.0 / 6, 2.0 / 3, 1.0 / 6},
                                                          {1.0 / 6, 1.0 / 6, 2.0 / 3}}};
 constexpr int kStepHalvings = 8;
-
-/// The step towards the minimum of a quadratic model from values at (0,0), (h,0), (-h,0), (0,h),
-/// (0,-h), (h,h); downhill in any case.
-PlanePoint newton_step(const std::array<double, 6>& f, double h)
-{
-    const PlanePoint gradient((f[1] - f[2]) / (2 * h), (f[3] - f[4]) / (2 * h));
-    const double xx = (f[1] + f[2] - 2 * f[0]) / (h * h);
-    const double yy = (f[3] + f[4] - 2 * f[0]) / (h * h);
-    const double xy = (f[5] - f[1] - f[3] + f[0]) / (h * h);
-    const double determinant = xx * yy - xy * xy;
-    if (xx > 0 && determinant > 1e-6 * xx * yy) {
-        const PlanePoint step(-(yy * gradient.x() - xy * gradient.y()) / determinant,
-                              -(xx * gradient.y() - xy * gradient.x()) / determinant);
-        if (step.dot(gradient) < 0) {
-            return step;
-        }
-    }
-    const double curvature = std::max({std::abs(xx), std::abs(yy), 1e-300});
-    return -gradient / curvature;
-}
+/// The least determinant of a triangle's metric, as a share of its size.
+constexpr double kLeastShare = 1e-24;
 
 }  // namespace
 
 MovingPatch::MovingPatch(const PlacedPatch& moving, const std::vector<Vec3>& moving_positions,
                          const PlacedPatch& fixed, const std::vector<Vec3>& fixed_positions,
-                         double scale, bool moves_a)
-    : placed_(moving), points_(moving.map.points), location_(fixed.map), moves_a_(moves_a)
+                         double scale, bool moves_a, MapEnergy judged_by)
+    : placed_(moving),
+      points_(moving.map.points),
+      location_(fixed.map),
+      moves_a_(moves_a),
+      judged_by_(judged_by),
+      fixed_(fixed),
+      fixed_positions_(fixed_positions),
+      scale_(scale)
 {
     for (const auto& c : moving.map.corners) {
-        const Vec3& a = moving_positions[c[0]];
-        const Vec3& b = moving_positions[c[1]];
-        const Vec3& d = moving_positions[c[2]];
         // To the standard triangle, for any place of the corners in the domain.
-        frames_.push_back(
-            to_domain_map(a, b, d, PlanePoint(0, 0), PlanePoint(1, 0), PlanePoint(0, 1)));
-        areas_.push_back((b - a).cross(d - a).norm() / 2);
+        frames_.push_back(to_domain_map(moving_positions[c[0]], moving_positions[c[1]],
+                                        moving_positions[c[2]], PlanePoint(0, 0), PlanePoint(1, 0),
+                                        PlanePoint(0, 1)));
+        const Vec3 u = moving_positions[c[1]] - moving_positions[c[0]];
+        const Vec3 w = moving_positions[c[2]] - moving_positions[c[0]];
+        const double area = u.cross(w).norm() / 2;
+        const double size = std::max({u.squaredNorm(), w.squaredNorm(), 1e-300});
+        const double determinant = std::max(4 * area * area, kLeastShare * size * size);
+        shapes_.push_back(
+            {area, w.dot(w) / determinant, -u.dot(w) / determinant, u.dot(u) / determinant});
     }
     for (const auto& c : fixed.map.corners) {
         const Matrix2 back =
@@ -93,52 +88,104 @@ double MovingPatch::energy_around(Index v)
     return energy_as_seen(v);
 }
 
+/// |J|^2 + |J^-1|^2 times the area of target a per area of the target that moves.
+double MovingPatch::energy(double squares, double ratio) const
+{
+    return squares * (moves_a_ ? 1 + 1 / (ratio * ratio) : ratio + 1 / ratio);
+}
+
+/// The place on the target that stays of a point of the domain.
+Vec3 MovingPatch::lifted(const PlanePoint& point) const
+{
+    const PointLocation::Place place = location_.find(point);
+    const auto& c = fixed_.map.corners[place.triangle];
+    return place.barycentrics[0] * fixed_positions_[c[0]] +
+           place.barycentrics[1] * fixed_positions_[c[1]] +
+           place.barycentrics[2] * fixed_positions_[c[2]];
+}
+
 void MovingPatch::look_around(Index v)
 {
     seen_.clear();
     for_star(v, [&](Index t) {
         const auto& c = placed_.map.corners[t];
-        for (const auto& weights : kSamples) {
-            const PlanePoint p = weights[0] * points_[c[0]] + weights[1] * points_[c[1]] +
-                                 weights[2] * points_[c[2]];
-            seen_.push_back(metrics_[location_.find(p).triangle]);
+        const auto corner = static_cast<std::size_t>(std::find(c.begin(), c.end(), v) - c.begin());
+        const PlanePoint& next = points_[c[(corner + 1) % 3]];
+        const PlanePoint& last = points_[c[(corner + 2) % 3]];
+        Opposite opposite{t, corner, {lifted(next), lifted(last), lifted((next + last) / 2)}, {}};
+        for (std::size_t i = 0; judged_by_ == MapEnergy::places_and_samples && i < kSamples.size();
+             ++i) {
+            const PlanePoint p = kSamples[i][0] * points_[c[0]] + kSamples[i][1] * points_[c[1]] +
+                                 kSamples[i][2] * points_[c[2]];
+            opposite.metrics[i] = metrics_[location_.find(p).triangle];
         }
+        seen_.push_back(opposite);
         return true;
     });
 }
 
+double MovingPatch::sampled_energy(const Opposite& opposite) const
+{
+    const auto& c = placed_.map.corners[opposite.triangle];
+    const PlanePoint p = points_[c[1]] - points_[c[0]];
+    const PlanePoint q = points_[c[2]] - points_[c[0]];
+    const Matrix2& frame = frames_[opposite.triangle];
+    // The map from the triangle's plane to the domain.
+    const double a = p.x() * frame(0, 0) + q.x() * frame(1, 0);
+    const double b = p.x() * frame(0, 1) + q.x() * frame(1, 1);
+    const double d = p.y() * frame(0, 0) + q.y() * frame(1, 0);
+    const double e = p.y() * frame(0, 1) + q.y() * frame(1, 1);
+    const double determinant = a * e - b * d;
+    double sum = 0;
+    for (const Metric& m : opposite.metrics) {
+        const double squares =
+            m.xx * (a * a + b * b) + 2 * m.xy * (a * d + b * e) + m.yy * (d * d + e * e);
+        const double ratio = std::sqrt(determinant * determinant * m.determinant);
+        sum += energy(squares, ratio);
+    }
+    return shapes_[opposite.triangle].area / kSamples.size() * sum;
+}
+
 double MovingPatch::energy_as_seen(Index v) const
 {
+    const PlanePoint& point = points_[v];
+    const Vec3 place = lifted(point);
     double sum = 0;
-    std::size_t sample = 0;
-    const bool positive = for_star(v, [&](Index t) {
-        const auto& c = placed_.map.corners[t];
-        const PlanePoint p = points_[c[1]] - points_[c[0]];
-        const PlanePoint q = points_[c[2]] - points_[c[0]];
-        const Matrix2& frame = frames_[t];
-        // The map from the triangle's plane to the domain.
-        const double a = p.x() * frame(0, 0) + q.x() * frame(1, 0);
-        const double b = p.x() * frame(0, 1) + q.x() * frame(1, 1);
-        const double d = p.y() * frame(0, 0) + q.y() * frame(1, 0);
-        const double e = p.y() * frame(0, 1) + q.y() * frame(1, 1);
-        const double determinant = a * e - b * d;
-        if (!(determinant > 0)) {
-            return false;
+    for (const Opposite& opposite : seen_) {
+        const auto& corners = placed_.map.corners[opposite.triangle];
+        const PlanePoint& next = points_[corners[(opposite.corner + 1) % 3]];
+        const PlanePoint& last = points_[corners[(opposite.corner + 2) % 3]];
+        if (!(cross(next - point, last - point) > 0)) {
+            return std::numeric_limits<double>::infinity();
         }
-        double of_triangle = 0;
-        for (std::size_t i = 0; i < kSamples.size(); ++i, ++sample) {
-            const Metric& m = seen_[sample];
+        // Corners, and the middles of the sides that begin at them.
+        std::array<Vec3, 3> c;
+        std::array<Vec3, 3> m;
+        c[opposite.corner] = place;
+        c[(opposite.corner + 1) % 3] = opposite.places[0];
+        c[(opposite.corner + 2) % 3] = opposite.places[1];
+        m[opposite.corner] = lifted((point + next) / 2);
+        m[(opposite.corner + 1) % 3] = opposite.places[2];
+        m[(opposite.corner + 2) % 3] = lifted((last + point) / 2);
+        const Shape& shape = shapes_[opposite.triangle];
+        const auto add = [&](const Vec3& p, const Vec3& q) {
             const double squares =
-                m.xx * (a * a + b * b) + 2 * m.xy * (a * d + b * e) + m.yy * (d * d + e * e);
-            const double ratio = determinant * determinant * m.determinant;
+                4 * scale_ * (shape.xx * p.dot(p) + 2 * shape.xy * p.dot(q) + shape.yy * q.dot(q));
+            const double ratio =
+                std::max(2 * scale_ * p.cross(q).norm() / std::max(shape.area, 1e-300), 1e-100);
             // |J|^2 + |J^-1|^2, per area of target a.
-            of_triangle += moves_a_ ? squares * (1 + 1 / ratio)
-                                    : squares * (std::sqrt(ratio) + 1 / std::sqrt(ratio));
+            sum +=
+                shape.area / 4 * squares * (moves_a_ ? 1 + 1 / (ratio * ratio) : ratio + 1 / ratio);
+        };
+        add(m[0] - c[0], m[2] - c[0]);
+        add(c[1] - m[0], m[1] - m[0]);
+        add(m[1] - m[2], c[2] - m[2]);
+        add(m[1] - m[2], m[1] - m[0]);
+        if (judged_by_ == MapEnergy::places_and_samples) {
+            sum += sampled_energy(opposite);
         }
-        sum += areas_[t] * of_triangle / kSamples.size();
-        return true;
-    });
-    return positive ? sum : std::numeric_limits<double>::infinity();
+    }
+    return sum;
 }
 
 double MovingPatch::least_height_around(Index v) const
@@ -164,14 +211,12 @@ void MovingPatch::improve(Index v)
     if (!(h > 1e-13) || !std::isfinite(before)) {
         return;
     }
-    std::array<double, 6> values{before};
-    constexpr std::array<std::array<int, 2>, 6> kOffsets{
-        {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}}};
-    for (std::size_t i = 1; i < 6; ++i) {
-        points_[v] = start + h * PlanePoint(kOffsets[i][0], kOffsets[i][1]);
-        values[i] = energy_as_seen(v);
-    }
-    PlanePoint step = newton_step(values, h);
+    PlanePoint step = newton_step(
+        [&](double x, double y) {
+            points_[v] = start + PlanePoint(x, y);
+            return energy_as_seen(v);
+        },
+        before, h);
     for (int halving = 0; halving < kStepHalvings; ++halving, step /= 2) {
         points_[v] = to_plane(to_grid(start + step));
         if (is_positive_around(v) && energy_around(v) < before) {

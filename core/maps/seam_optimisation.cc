@@ -97,8 +97,9 @@ std::optional<PlacedPatch> transferred(const PlacedPatch& old, const Patch& patc
 
 }  // namespace
 
-SeamOptimisation::SeamOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b)
-    : layout_(layout), targets_{&a, &b}, scale_(area_ratio(a, b))
+SeamOptimisation::SeamOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b,
+                                   MapEnergy judged_by)
+    : layout_(layout), targets_{&a, &b}, scale_(area_ratio(a, b)), judged_by_(judged_by)
 {}
 
 Index SeamOptimisation::pass()
@@ -229,7 +230,8 @@ std::optional<SeamOptimisation::Trace> SeamOptimisation::trace(Index edge) const
     for (int round = 0; round < kUnionRounds; ++round) {
         for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
             MovingPatch moving(result.unions[side], positions[side], result.unions[1 - side],
-                               positions[1 - side], side == 0 ? scale_ : 1 / scale_, side == 0);
+                               positions[1 - side], side == 0 ? scale_ : 1 / scale_, side == 0,
+                               judged_by_);
             moving.improve_all();
             result.unions[side].map.points = moving.points();
         }
@@ -464,7 +466,7 @@ Index SeamOptimisation::compare(const std::vector<Trace>& traces)
         edges[trace.edge] = true;
         faces[layout_.face(2 * trace.edge)] = faces[layout_.face(2 * trace.edge + 1)] = true;
     }
-    MapOptimisation optimisation(layout_, moved[0], moved[1]);
+    MapOptimisation optimisation(layout_, moved[0], moved[1], judged_by_);
     for (int round = 0; round < kPatchRounds; ++round) {
         optimisation.round(faces, edges);
     }

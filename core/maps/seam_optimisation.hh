@@ -5,6 +5,7 @@
 
 #include "embedding/normal_form.hh"
 #include "layout/layout.hh"
+#include "maps/moving_patch.hh"
 #include "maps/placed_target.hh"
 
 namespace layout_embedding {
@@ -23,7 +24,7 @@ namespace layout_embedding {
 class SeamOptimisation {
 public:
     /// All must outlive this.
-    SeamOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b);
+    SeamOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b, MapEnergy judged_by);
 
     /// Tries all edges once, those with the largest energies beside them first. Returns how many
     /// edges got new paths.
@@ -65,6 +66,7 @@ private:
     const Layout& layout_;
     std::array<PlacedTarget*, 2> targets_;
     double scale_;
+    MapEnergy judged_by_;
     std::vector<double> energies_;  // per layout face
 };
 

@@ -331,9 +331,9 @@ TEST(RealMesh, a_map_between_two_people_is_near_to_the_known_correspondence)
         mapped[side] = {{people[side], std::make_shared<const RefinedMesh>(*result.refined)},
                         landmarks};
     }
-    const auto map = SurfaceMap::make(layout, mapped[0], mapped[1], {3, 0});
-    ASSERT_TRUE(map.ok()) << map.error().message;
-    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+    // The mean distance of images from the corresponding vertices, relative to the root of the
+    // area.
+    const auto mean_error = [&](const SurfaceMap& map, std::size_t side) {
         const TriangleMesh& other = *people[1 - side];
         double area = 0;
         for (Index f = 0; f < other.face_count(); ++f) {
@@ -345,11 +345,20 @@ TEST(RealMesh, a_map_between_two_people_is_near_to_the_known_correspondence)
         }
         double sum = 0;
         for (Index v = 0; v < other.vertex_count(); ++v) {
-            sum += (position_of(other, map->vertex_images(side)[v]) - other.position(v)).norm();
+            sum += (position_of(other, map.vertex_images(side)[v]) - other.position(v)).norm();
         }
-        EXPECT_LT(sum / other.vertex_count() / std::sqrt(area), 0.01);
+        return sum / other.vertex_count() / std::sqrt(area);
+    };
+    const auto first = SurfaceMap::make(layout, mapped[0], mapped[1], {0, 0});
+    ASSERT_TRUE(first.ok()) << first.error().message;
+    const auto map = SurfaceMap::make(layout, mapped[0], mapped[1], {0, 1});
+    ASSERT_TRUE(map.ok()) << map.error().message;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        EXPECT_LT(mean_error(*first, side), 0.01);
+        EXPECT_LT(mean_error(*map, side), 2.0 / 3 * mean_error(*first, side));
     }
-    EXPECT_LT(map->distortion().mean_energy, 0.8 * map->first_distortion().mean_energy);
+    // The known correspondence itself has 4.043.
+    EXPECT_LT(map->distortion().mean_energy, 4.2);
 }
 
 }  // namespace

@@ -613,7 +613,7 @@ export interface SurfacePoints {
 
 /** How long a map is optimised. An aborted `signal` ends that; the map is as far as it is. */
 export interface SurfaceMapOptions extends CallOptions {
-    /** Rounds of optimisation at most; 0 leaves the maps of the patches as they are. Default: 20. */
+    /** Rounds of optimisation at most; 0 leaves the maps of the patches as they are. Default: 5. */
     rounds?: number;
     /**
      * How often the paths of both targets are moved at most, so that points on a path need not be

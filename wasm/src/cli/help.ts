@@ -68,7 +68,7 @@ Options of map, beside those of embed on searches and shapes
   --output DIR         write map.json (images of all vertices, in both directions), overlay_a.obj and
                        overlay_b.obj (the common refinement on either target, with the texture
                        coordinates of TARGET_A), and both embeddings to a/ and b/
-  --rounds N           rounds of optimisation at most (default 20)
+  --rounds N           rounds of optimisation at most (default 5)
   --seam-passes N      how often the paths of both targets are moved at most to lower the distortion
                        (default 2); 0 maps the paths of one embedding onto those of the other
 
