@@ -10,7 +10,8 @@ namespace layout_embedding {
 /// Moves the vertices of a quad mesh that are not fixed towards the means of their neighbours and
 /// back to the target, one after the other, `rounds` times or until they hardly move. A move is
 /// made only if the smallest scaled Jacobian of the quads around the vertex stays above 0.5 or
-/// grows. Vertices of quads that are still bad then look around themselves for better places.
+/// grows. Then bad quads are untangled and the worst ones mended, by turns, for as long as fewer
+/// stay flipped.
 class QuadRelaxation {
 public:
     /// `target` and `mesh` must outlive this; `fixed` says so of every vertex.

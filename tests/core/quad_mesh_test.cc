@@ -337,8 +337,8 @@ TEST_P(QuadsOfShapes, have_few_flipped_quads_and_the_same_connectivity_for_all_m
         const auto quads = make_quad_mesh(*layout, *target, embedded->refined, options);
         ASSERT_TRUE(quads.ok()) << quads.error().message;
         expect_sound(*embedded, *quads);
-        // None at all is out of reach on these coarse shapes and templates.
-        EXPECT_LT(quads->statistics.flipped, 0.02 * static_cast<double>(quads->quads.size()));
+        // Where patches fold over thin parts, a few can stay.
+        EXPECT_LT(quads->statistics.flipped, 0.005 * static_cast<double>(quads->quads.size()));
         EXPECT_GT(quads->statistics.mean_jacobian, 0.45);
         if (done++ == 0) {
             first = quads->quads;
