@@ -1,15 +1,17 @@
 #include "search/class_selection.hh"
 
 #include <algorithm>
+#include <utility>
 
 #include "surface/stretch.hh"
 
 namespace layout_embedding {
 
 ClassSelection::ClassSelection(const Layout& layout, const WalkPool& pool,
-                               std::vector<bool> is_linear)
+                               std::optional<FaceLoops> faces, std::vector<bool> is_linear)
     : layout_(layout),
       pool_(pool),
+      faces_(std::move(faces)),
       is_linear_(std::move(is_linear)),
       crossings_(pool),
       sat_(crossings_),
@@ -20,6 +22,7 @@ ClassSelection::ClassSelection(const Layout& layout, const WalkPool& pool,
 void ClassSelection::set_base(Index layout_edge, Length bound)
 {
     edges_[layout_edge].base = bound;
+    base_ += bound;
     sat_.add_base(bound);
 }
 
@@ -73,6 +76,7 @@ void ClassSelection::add_class(Index walk)
     if (pool_.cost(walk) > edge.base) {
         sat_.add_clause({WeightedSat::negate(chosen), level(e, pool_.cost(walk))});
     }
+    unnoted_.push_back(walk);
     for (const Index h : {2 * e, 2 * e + 1}) {
         const Index v = layout_.tail(h);
         if (!is_linear_[v]) {
@@ -125,13 +129,19 @@ void ClassSelection::forbid(std::span<const Index> walks)
 
 ClassSelection::Outcome ClassSelection::run(WorkBudget& budget)
 {
+    if (!rows_.empty()) {
+        note_walks();
+    }
     for (;;) {
+        budget.charge(std::exchange(uncharged_, 0));
         const Outcome outcome = sat_.run(budget);
         if (outcome != Outcome::satisfied && outcome != Outcome::optimal) {
             return outcome;
         }
         read_choices();
-        if (!add_violated_orders()) {
+        const bool has_wrong_orders = add_violated_orders();
+        const bool has_wrong_faces = faces_ && add_violated_faces();
+        if (!has_wrong_orders && !has_wrong_faces) {
             return outcome;
         }
     }
@@ -210,6 +220,149 @@ bool ClassSelection::add_violated_orders()
         }
     }
     return found;
+}
+
+/// Adds what faces demand that the present choice does not comply with, and more of the kind; false
+/// if it complies with all.
+bool ClassSelection::add_violated_faces()
+{
+    note_walks();
+    bool found = false;
+    std::vector<Index> walks;
+    for (Index f = 0; f < layout_.face_count(); ++f) {
+        if (!faces_->demands(f)) {
+            continue;
+        }
+        walks.clear();
+        for (const Index h : layout_.face_halfedges(f)) {
+            walks.push_back(choices_[Layout::edge(h)]);
+        }
+        const auto open_count = std::count(walks.begin(), walks.end(), kNone);
+        const auto open =
+            static_cast<std::size_t>(std::find(walks.begin(), walks.end(), kNone) - walks.begin());
+        if (open_count > 1 || (open_count == 0 && faces_->closes(f, walks)) ||
+            (open_count == 1 && faces_->walk(faces_->completion(f, walks, open)) == kNone)) {
+            continue;
+        }
+        found = true;
+        bool is_excluded = false;
+        for (std::size_t place = 0; place < walks.size(); ++place) {
+            if (open_count == 0 || place == open) {
+                is_excluded = add_completion(f, walks, place) || is_excluded;
+            }
+            if (walks.size() == 3 && place != open) {
+                add_row(f, place, walks[place]);
+            }
+        }
+        if (!is_excluded) {
+            forbid(walks);  // the assignment holds several classes of an edge to be chosen
+        }
+    }
+    return found;
+}
+
+/// Tells the faces of the walks that are new to them. Cuts for faces are not made before a choice
+/// has been found.
+void ClassSelection::note_walks()
+{
+    rows_.resize(layout_.face_count());
+    for (const Index walk : std::exchange(unnoted_, {})) {
+        faces_->add(walk);
+        add_to_rows(walk);
+    }
+}
+
+/// Adds all that a triangle demands where it has this walk at a place.
+void ClassSelection::add_row(Index face, std::size_t place, Index walk)
+{
+    if (!rows_[face].insert({place, walk}).second) {
+        return;
+    }
+    const auto halfedges = layout_.face_halfedges(face);
+    std::vector<Index> walks(3, kNone);
+    walks[place] = walk;
+    for (const std::size_t step : {1, 2}) {
+        const std::size_t beside = (place + step) % 3;
+        for (const Index other : edges_[Layout::edge(halfedges[beside])].walks) {
+            walks[beside] = other;
+            if (can_go_together(walk, other)) {
+                add_completion(face, walks, (place + 3 - step) % 3);
+            }
+        }
+    }
+}
+
+/// Adds what triangles demand of a new walk beside those that have rows, and that it completes what
+/// had no completion.
+void ClassSelection::add_to_rows(Index walk)
+{
+    const Index e = pool_.layout_edge(walk);
+    std::vector<Index> walks(3, kNone);
+    for (const Index h : {2 * e, 2 * e + 1}) {
+        const Index face = layout_.face(h);
+        if (face == kNone || layout_.face_halfedges(face).size() != 3 || !faces_->demands(face)) {
+            continue;
+        }
+        const auto halfedges = layout_.face_halfedges(face);
+        const auto place = static_cast<std::size_t>(
+            std::find(halfedges.begin(), halfedges.end(), h) - halfedges.begin());
+        const auto waiting = waiting_.extract(faces_->side(h, walk));
+        if (!waiting.empty()) {
+            for (const auto& [after, before] : waiting.mapped()) {
+                walks[(place + 1) % 3] = after;
+                walks[(place + 2) % 3] = before;
+                add_completion(face, walks, place);
+            }
+        }
+        for (const Row& row : rows_[face]) {
+            if (row.place != place && can_go_together(walk, row.walk)) {
+                walks[place] = walk;
+                walks[row.place] = row.walk;
+                add_completion(face, walks, 3 - place - row.place);
+            }
+        }
+    }
+}
+
+/// Whether two walks of different edges may be in a choice that matters.
+bool ClassSelection::can_go_together(Index a, Index b) const
+{
+    const auto excess = [&](Index walk) {
+        return pool_.cost(walk) - edges_[pool_.layout_edge(walk)].base;
+    };
+    return !pool_.cross(a, b) && (sat_.upper_bound() == kInfiniteLength ||
+                                  base_ + excess(a) + excess(b) < sat_.upper_bound());
+}
+
+/// Where a face has these walks but at one place, there it has the only class that can close its
+/// loop, or one that is not known if that one is not. Returns whether this excludes the assignment
+/// found last.
+bool ClassSelection::add_completion(Index face, std::vector<Index>& walks, std::size_t place)
+{
+    uncharged_ += 4;
+    const Index side = faces_->completion(face, walks, place);
+    const Index completion = faces_->walk(side);
+    std::vector<Literal> clause;
+    for (std::size_t i = 0; i < walks.size(); ++i) {
+        if (i != place) {
+            clause.push_back(WeightedSat::negate(literals_[walks[i]]));
+        }
+    }
+    const Index e = Layout::edge(layout_.face_halfedges(face)[place]);
+    if (completion != kNone) {
+        const Index before = std::exchange(walks[place], completion);
+        if (faces_->closes(face, walks)) {
+            clause.push_back(literals_[completion]);
+        }
+        walks[place] = before;
+    } else if (walks.size() == 3 && edges_[e].rest != kTrue) {
+        clause.push_back(edges_[e].rest);
+        waiting_[side].push_back({walks[(place + 1) % 3], walks[(place + 2) % 3]});
+    } else {
+        return false;  // to look for it would cost more than it brings
+    }
+    sat_.add_clause(clause);
+    return std::none_of(clause.begin(), clause.end(), [&](Literal l) { return sat_.holds(l); });
 }
 
 }  // namespace layout_embedding

@@ -3,12 +3,15 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "base/types.hh"
 #include "layout/layout.hh"
+#include "search/face_loops.hh"
 #include "search/weighted_sat.hh"
 #include "search/work_budget.hh"
 #include "surface/walk_pool.hh"
@@ -22,14 +25,15 @@ namespace layout_embedding {
 /// below; if no rest is in it, it is an embedding, and the best of all.
 ///
 /// Kept as clauses and costs in a WeightedSat that grows as classes and bounds become known; cyclic
-/// orders around landmarks are added where a choice violates them.
+/// orders around landmarks and what faces demand are added where a choice violates them.
 class ClassSelection {
 public:
     using Outcome = WeightedSat::Outcome;
 
     /// Keeps references. `is_linear`: per layout vertex, whether the orders of the edges there are
-    /// linear, as they are at landmarks on the target's boundary.
-    ClassSelection(const Layout& layout, const WalkPool& pool, std::vector<bool> is_linear);
+    /// linear, as they are at landmarks on the target's boundary. `faces` may be missing.
+    ClassSelection(const Layout& layout, const WalkPool& pool, std::optional<FaceLoops> faces,
+                   std::vector<bool> is_linear);
 
     /// Every class of the edge costs at least this. Once per edge, before anything else.
     void set_base(Index layout_edge, Length bound);
@@ -72,6 +76,12 @@ private:
     bool add_violated_orders();
     bool is_wrong(const std::array<Index, 3>& halfedges, const std::array<Index, 3>& walks) const;
     void forbid_order(const std::array<Index, 3>& walks);
+    bool add_violated_faces();
+    void add_row(Index face, std::size_t place, Index walk);
+    void add_to_rows(Index walk);
+    bool add_completion(Index face, std::vector<Index>& walks, std::size_t place);
+    bool can_go_together(Index a, Index b) const;
+    void note_walks();
 
     /// Walks that cross.
     struct Crossings : Exclusions {
@@ -82,13 +92,30 @@ private:
 
     const Layout& layout_;
     const WalkPool& pool_;
+    std::optional<FaceLoops> faces_;
     std::vector<bool> is_linear_;
     Crossings crossings_;
     WeightedSat sat_;
     std::vector<Edge> edges_;
     std::vector<Literal> literals_;  // per walk; kNone if it is not known here
     std::vector<Index> choices_;
+    Length base_ = 0;  // of all edges
     std::set<std::array<Index, 3>> forbidden_orders_;
+    /// A walk at one place of a triangle whose completions are clauses, beside every walk known at
+    /// another place.
+    struct Row {
+        std::size_t place;
+        Index walk;
+        bool operator<(const Row& other) const
+        {
+            return place != other.place ? place < other.place : walk < other.walk;
+        }
+    };
+    std::vector<std::set<Row>> rows_;  // per face; empty before the first choice
+    std::vector<Index> unnoted_;       // walks that the faces do not know of yet
+    /// Per side of a face that is not known yet: pairs of walks that it would complete.
+    std::unordered_map<Index, std::vector<std::array<Index, 2>>> waiting_;  // never iterated
+    std::uint64_t uncharged_ = 0;
     Index class_count_ = 0;
 };
 

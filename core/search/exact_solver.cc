@@ -40,7 +40,11 @@ ExactSolver::ExactSolver(const EmbeddingProblem& problem, const PathGraph& graph
       graph_(graph),
       space_(problem, graph, field_bytes, true, options.constraints),
       start_(problem, space_, options.local_search ? kLocalSearch : 0, options.gap),
-      selection_(*problem.layout, space_.pool, linear_vertices(space_.strands)),
+      selection_(*problem.layout, space_.pool,
+                 options.faces
+                     ? std::optional(FaceLoops(*problem.layout, graph, space_.pool, space_.cuts))
+                     : std::nullopt,
+                 linear_vertices(space_.strands)),
       enumeration_(space_.strands, space_.fields),
       rest_bounds_(problem.layout->edge_count()),
       explorations_(problem.layout->edge_count())

@@ -21,6 +21,8 @@ struct ExactSolverOptions {
     bool local_search = true;
     /// Enumerate classes of edges whatever the others do, before it is done beside others.
     bool exploration = true;
+    /// Tell the selection what the layout's faces demand of the classes around them.
+    bool faces = true;
 };
 
 /// The best of all embeddings (design, Sec. 3): after a start by insertion, the cheapest selection

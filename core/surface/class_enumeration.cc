@@ -35,7 +35,6 @@ void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length li
     goal_sector_ = strands_.sector(2 * layout_edge + 1);
     field_ = &fields_.get(goal_, start_);
     words_ = {};
-    mark_ = 0;
     labels_.clear();
     for (const Index state : used_states_) {
         first_labels_[state] = kNone;
@@ -80,7 +79,7 @@ ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions,
         }
         queue_.pop();
         ++expansion_count_;
-        labels_[current].is_closed = true;
+        close(current);
         const Label label = labels_[current];
         const Index node = strands_.node_of_state(label.state);
         if (node == goal_) {
@@ -157,22 +156,50 @@ void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index str
             used_states_.push_back(state);
         }
         found = static_cast<Index>(labels_.size());
-        labels_.push_back({state, word, reached, from_label, dart, first, found, 0, false, false});
+        labels_.push_back({state, word, reached, from_label, dart, first, found, found, 0, 0, 0});
         first = found;
     } else {
         Label& label = labels_[found];
         if (reached >= label.distance) {
-            label.is_tied = label.is_tied || reached == label.distance;
+            label.is_tied |= reached == label.distance ? 1U : 0U;
             return;
         }
         label.distance = reached;
         label.parent = from_label;
         label.parent_dart = dart;
-        label.is_tied = false;
+        label.is_tied = 0;
     }
     const bool goes_on = from_label != kNone && labels_[from_label].word == word;
     labels_[found].entry = goes_on ? labels_[from_label].entry : found;
     queue_.push({estimate, along.head == goal_ ? found | kIsGoal : found});
+}
+
+/// No shorter walk will come to this label. Jumps are as long as those of the skew-binary numbers
+/// (Myers 1983), so that a few of them lead anywhere.
+void ClassEnumeration::close(Index label)
+{
+    Label& here = labels_[label];
+    here.is_closed = 1;
+    if (here.parent == kNone) {
+        return;
+    }
+    const Label& parent = labels_[here.parent];
+    const Label& before = labels_[parent.jump];
+    here.depth = parent.depth + 1;
+    here.jump = parent.depth - before.depth == before.depth - labels_[before.jump].depth
+                    ? before.jump
+                    : here.parent;
+}
+
+/// Whether the walk to the closed label `to` comes by `label`, which is nearer to the start.
+bool ClassEnumeration::is_on_the_way(Index label, Index to)
+{
+    const Length distance = labels_[label].distance;
+    while (labels_[to].distance > distance && labels_[to].parent != kNone) {
+        ++label_count_;
+        to = labels_[labels_[to].jump].distance >= distance ? labels_[to].jump : labels_[to].parent;
+    }
+    return to == label;
 }
 
 /// Whether a stretch that the walk to a label shares with itself ends right before it and crosses.
@@ -188,30 +215,26 @@ bool ClassEnumeration::crosses_itself(Index label)
         return false;  // nobody else has been there
     }
     // Of those who have, the walk itself can only be one with a word that it has had.
-    ++mark_;
-    for (Index l = parent; l != kNone; l = labels_[labels_[l].entry].parent) {
-        ++label_count_;
-        labels_[labels_[l].entry].mark = mark_;
+    entries_.clear();
+    for (Index l = parent; l != kNone; l = labels_[entries_.back()].parent) {
+        entries_.push_back(labels_[l].entry);
     }
-    bool may_return = false;
-    for (Index l = first_labels_[state]; l != kNone && !may_return; l = labels_[l].next) {
+    label_count_ += entries_.size();
+    bool returns = false;
+    for (Index l = first_labels_[state]; l != kNone && !returns; l = labels_[l].next) {
         ++label_count_;
-        may_return = labels_[l].distance < labels_[parent].distance &&
-                     labels_[labels_[l].entry].mark == mark_;
+        returns = labels_[l].distance < labels_[parent].distance &&
+                  std::find(entries_.begin(), entries_.end(), labels_[l].entry) != entries_.end() &&
+                  is_on_the_way(l, parent);
     }
-    if (!may_return) {
+    if (!returns) {
         return false;
     }
     const PathGraph& graph = strands_.graph();
     reversed_.clear();
-    bool returns = false;
     for (Index l = label; l != kNone; l = labels_[l].parent) {
         ++label_count_;
         reversed_.push_back(graph.twin(labels_[l].parent_dart));
-        returns = returns || (labels_[l].state == state && l != parent);
-    }
-    if (!returns) {
-        return false;
     }
     const Index node = strands_.node_of_state(state);
     for (Index k = 1; k + 1 < reversed_.size(); ++k) {

@@ -64,9 +64,11 @@ private:
         Index parent_dart;
         Index next;   // label of the same state with another word
         Index entry;  // the first label on the way whose word and all later ones are this one's
-        Index mark;
-        bool is_closed;
-        bool is_tied;
+        // Once closed: a label some way back, for is_on_the_way(), and how many are before this.
+        Index jump;
+        Index depth : 30;
+        Index is_closed : 1;
+        Index is_tied : 1;
     };
     struct QueueItem {
         Length estimate;
@@ -78,6 +80,8 @@ private:
     };
 
     void relax(Index from_label, Index dart, Index slot, Index strand_count);
+    void close(Index label);
+    bool is_on_the_way(Index label, Index to);
     bool crosses_itself(Index label);
     bool collect_walk(Index label);
 
@@ -100,7 +104,7 @@ private:
     QuadHeap<QueueItem> queue_;
     std::vector<Index> darts_;
     std::vector<Index> reversed_;
-    Index mark_ = 0;
+    std::vector<Index> entries_;
     std::vector<Index> met_;  // embedded edges
     std::vector<bool> is_met_;
     std::vector<Index> bordering_;

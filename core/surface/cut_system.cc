@@ -166,7 +166,10 @@ Index Words::times(Index word, Letter letter)
 }
 
 CutSystem::CutSystem(const PathGraph& graph, std::span<const Index> landmark_nodes, Index root)
-    : graph_(graph), letters_(landmark_nodes.size(), 0), is_passed_(graph.node_count(), false)
+    : graph_(graph),
+      letters_(landmark_nodes.size(), 0),
+      first_darts_(landmark_nodes.size(), kNone),
+      is_passed_(graph.node_count(), false)
 {
     const std::vector<Index> holes = nodes_of_holes(graph, landmark_nodes);
     const Index root_node = root == kNone ? holes.front() : landmark_nodes[root];
@@ -183,6 +186,7 @@ CutSystem::CutSystem(const PathGraph& graph, std::span<const Index> landmark_nod
     for (Index v = 0; v < landmark_nodes.size(); ++v) {
         if (v != root && !graph.is_boundary(landmark_nodes[v])) {
             letters_[v] = ++last_letter;
+            first_darts_[v] = tree.parent_dart(landmark_nodes[v]);
             beginnings.push_back({landmark_nodes[v], kNone, last_letter});
         }
     }
@@ -304,30 +308,11 @@ std::span<const Words::Letter> CutSystem::crossed(Index node, Index dart) const
 
 Index CutSystem::advance(Words& words, Index word, Index dart, Index start) const
 {
-    const Index twin = graph_.twin(dart);
-    const Index head = graph_.head(dart);
-    const Index tail = graph_.head(twin);
-    if (!is_passed_[tail] && !is_passed_[head]) {
-        return word;
-    }
     const Words::Letter own = letter(start);
-    const auto times = [&](Words::Letter next) {
+    for_each_crossing(dart, [&](Words::Letter next) {
         const bool is_turn = word == Words::kEmpty && (next == own || next == -own);
         word = is_turn ? word : words.times(word, next);
-    };
-    for (const Words::Letter arc : crossed(tail, dart)) {
-        times(arc);
-    }
-    if (!changes_.empty()) {
-        const auto change = changes_.find(dart);
-        if (change != changes_.end()) {
-            times(change->second);
-        }
-    }
-    const auto arriving = crossed(head, twin);
-    for (std::size_t i = arriving.size(); i-- > 0;) {
-        times(-arriving[i]);
-    }
+    });
     return word;
 }
 

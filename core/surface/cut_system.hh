@@ -62,6 +62,33 @@ public:
     /// The letter of crossing a landmark's arc from its right to its left (seen from the landmark
     /// to the root); 0, which is no letter, where the landmark lies on the boundary.
     Words::Letter letter(Index layout_vertex) const { return letters_[layout_vertex]; }
+    /// The dart of the landmark's node right after which, counter-clockwise, its arc begins; kNone
+    /// where there is no letter.
+    Index first_dart(Index layout_vertex) const { return first_darts_[layout_vertex]; }
+    /// Calls function(letter) for every arc that a walk crosses along a dart, in order.
+    template <typename Function>
+    void for_each_crossing(Index dart, const Function& function) const
+    {
+        const Index twin = graph_.twin(dart);
+        const Index head = graph_.head(dart);
+        const Index tail = graph_.head(twin);
+        if (!is_passed_[tail] && !is_passed_[head]) {
+            return;
+        }
+        for (const Words::Letter arc : crossed(tail, dart)) {
+            function(arc);
+        }
+        if (!changes_.empty()) {
+            const auto change = changes_.find(dart);
+            if (change != changes_.end()) {
+                function(change->second);
+            }
+        }
+        const auto arriving = crossed(head, twin);
+        for (std::size_t i = arriving.size(); i-- > 0;) {
+            function(-arriving[i]);
+        }
+    }
     /// The word of a walk that goes on along a dart. Words only count up to turns around the layout
     /// vertex `start`, where the walk began and which is not the root: powers of its letter at
     /// their beginning are left away.
@@ -79,6 +106,7 @@ private:
 
     const PathGraph& graph_;
     std::vector<Words::Letter> letters_;        // per layout vertex
+    std::vector<Index> first_darts_;            // likewise
     std::vector<bool> is_passed_;               // per node
     std::unordered_map<Index, Passed> passed_;  // by node; looked up, never iterated
     /// Edges that arcs from the root back to it cross at their middle: by dart, the letter of going

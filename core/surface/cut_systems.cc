@@ -17,14 +17,24 @@ CutSystems::CutSystems(const Strands& strands)
 
 const CutSystem& CutSystems::of(Index layout_edge)
 {
+    const Index ends[] = {layout_.tail(2 * layout_edge), layout_.head(2 * layout_edge)};
+    return *away_from(ends);
+}
+
+const CutSystem* CutSystems::away_from(std::span<const Index> layout_vertices)
+{
     Index root = has_holes_ ? kNone : 0;
-    while (root == layout_.tail(2 * layout_edge) || root == layout_.head(2 * layout_edge)) {
+    while (std::find(layout_vertices.begin(), layout_vertices.end(), root) !=
+           layout_vertices.end()) {
         ++root;
+    }
+    if (root != kNone && root >= nodes_.size()) {
+        return nullptr;
     }
     const auto known = by_root_.find(root);
     return known != by_root_.end()
-               ? known->second
-               : by_root_.emplace(root, CutSystem(graph_, nodes_, root)).first->second;
+               ? &known->second
+               : &by_root_.emplace(root, CutSystem(graph_, nodes_, root)).first->second;
 }
 
 HomotopyClass CutSystems::class_of(Index layout_edge, const std::vector<Index>& darts)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <vector>
 
 #include "base/types.hh"
@@ -21,6 +22,8 @@ public:
 
     /// Cuts whose root is no end of the edge; they stay as long as this object.
     const CutSystem& of(Index layout_edge);
+    /// Cuts whose root is none of these layout vertices; null if these are all. Likewise.
+    const CutSystem* away_from(std::span<const Index> layout_vertices);
     /// The class of a walk from tail(2e) to head(2e) that meets no landmark on its way.
     HomotopyClass class_of(Index layout_edge, const std::vector<Index>& darts);
 

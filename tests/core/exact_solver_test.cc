@@ -429,6 +429,7 @@ TEST(ExactSolver, proves_embeddings_on_surfaces_of_higher_genus)
 {
     Random random(206);
     int count = 0;
+    std::uint64_t selections = 0;
     const auto solve = [&](const std::string& name, const PolygonMesh& layout,
                            const PolygonMesh& target, const std::vector<Index>& landmarks) {
         SCOPED_TRACE(name);
@@ -436,6 +437,11 @@ TEST(ExactSolver, proves_embeddings_on_surfaces_of_higher_genus)
         const ExactRun run(problem, {});
         EXPECT_NE(run.solver.incumbent_cost(), kInfiniteLength);
         EXPECT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+        ExactSolverOptions options;
+        options.faces = false;
+        const ExactRun without_faces(problem, options);
+        EXPECT_EQ(without_faces.solver.incumbent_cost(), run.solver.incumbent_cost());
+        selections += run.solver.counters().states_created;
         ++count;
     };
     const PolygonMesh ring = zoo::torus(9, 6);
@@ -443,7 +449,14 @@ TEST(ExactSolver, proves_embeddings_on_surfaces_of_higher_genus)
         solve("torus", zoo::quad_torus(3, 3), ring,
               zoo::displaced_landmarks(zoo::quad_torus(3, 3), ring, 0.2, random.bits()));
     }
-    EXPECT_EQ(count, 4);
+    for (int i = 0; i < 4; ++i) {
+        solve("torus of triangles", zoo::torus(3, 3), zoo::torus(8, 8),
+              zoo::displaced_landmarks(zoo::torus(3, 3), zoo::torus(8, 8), 0.3, random.bits()));
+        solve("two handles", zoo::slab(2, 0), zoo::slab(2, 1),
+              zoo::displaced_landmarks(zoo::slab(2, 0), zoo::slab(2, 1), 0.2, random.bits()));
+    }
+    EXPECT_EQ(count, 12);
+    EXPECT_GT(selections, 12U);
 }
 
 TEST(ExactSolver, no_part_changes_the_optimum)
@@ -451,7 +464,7 @@ TEST(ExactSolver, no_part_changes_the_optimum)
     // Without exploration some instances take very long.
     constexpr std::uint64_t kMaxWork = 1'000'000;
     int finished = 0;
-    std::uint64_t work[2] = {};
+    std::uint64_t work[3] = {};
     for (const Instance& instance : small_instances(431, 24)) {
         SCOPED_TRACE(instance.name);
         const ExactRun whole(instance.problem, {});
@@ -468,11 +481,17 @@ TEST(ExactSolver, no_part_changes_the_optimum)
             ++finished;
             EXPECT_EQ(without_exploration.solver.incumbent_cost(), optimum);
         }
+        options = {};
+        options.faces = false;
+        const ExactRun without_faces(instance.problem, options);
+        EXPECT_EQ(without_faces.solver.incumbent_cost(), optimum);
         work[0] += whole.work;
         work[1] += without_local_search.work;
+        work[2] += without_faces.work;
     }
     EXPECT_GT(finished, 5);
     EXPECT_NE(work[1], work[0]);
+    EXPECT_NE(work[2], work[0]);
 }
 
 }  // namespace

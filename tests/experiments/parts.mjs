@@ -18,6 +18,7 @@ const variants = [
         colour: colours.schreiner,
     },
     { variant: "exact-exploration", name: "without exploration of classes", colour: colours.praun },
+    { variant: "exact-faces", name: "without what faces demand", colour: colours.kraevoy },
     {
         variant: "branch-and-bound",
         name: "branch and bound in its place",

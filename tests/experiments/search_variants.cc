@@ -6,7 +6,7 @@
 // method and what it goes without: `branch-and-bound`, with `-start`, `-local-search`,
 // `-candidates`,
 // `-redundant`, `-delay`, `-priority`, `-memory` after it; or `exact`, with `-local-search`,
-// `-exploration`. Prints a JSON array, one object per VARIANT.
+// `-exploration`, `-faces`. Prints a JSON array, one object per VARIANT.
 
 #include <cstdio>
 #include <cstdlib>
@@ -41,6 +41,7 @@ std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathG
         options.gap = gap;
         options.local_search = !without(variant, "local-search");
         options.exploration = !without(variant, "exploration");
+        options.faces = !without(variant, "faces");
         return std::make_unique<ExactSolver>(problem, graph, kFieldBytes, options);
     }
     SequenceSolverOptions options;
