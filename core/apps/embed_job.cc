@@ -4,6 +4,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "apps/boundary_paths.hh"
 #include "embedding/angle_refinement.hh"
 #include "embedding/angle_widening.hh"
 #include "embedding/check_input.hh"
@@ -114,6 +115,9 @@ struct EmbedJob::Implementation {
     bool shape_ended = false;                      // by cancel()
     double shown_progress = 0;
     Length root_bound = 0;
+    std::vector<BoundaryPath> boundary;  // that paths are to follow
+    /// What they cost more than the shortest paths of their classes, as far as that is known.
+    std::int64_t extra_cost = 0;
     std::unique_ptr<LandmarkDoubts> doubts;  // while alternatives are compared
     bool compared = false;
 
@@ -148,7 +152,7 @@ struct EmbedJob::Implementation {
         // What a heuristic finds may be long for no other reason than the heuristic, and what is
         // asked of paths makes others longer.
         const bool comparable = options.look_for_doubts && !is_heuristic(options.algorithm) &&
-                                options.constraints.empty();
+                                options.constraints.empty() && boundary.empty();
         if (stopped || compared || !comparable) {
             end(status);
             return;
@@ -205,6 +209,9 @@ struct EmbedJob::Implementation {
 
     void set_lower_bound(Length bound, BoundScope scope)
     {
+        if (bound != kInfiniteLength) {
+            bound += static_cast<Length>(extra_cost);
+        }
         result.bound_scope = scope;
         result.exact_lower_bound = bound;
         result.lower_bound = graph->to_units(bound);
@@ -297,6 +304,26 @@ struct EmbedJob::Implementation {
             fail(EmbedStatus::failed, constraints.error());
             return false;
         }
+        boundary.clear();
+        extra_cost = 0;
+        if (options.boundary_is_followed) {
+            if (options.algorithm != Algorithm::exact) {
+                fail(EmbedStatus::failed,
+                     make_error(ErrorCode::invalidOption,
+                                "paths are to run along the target's boundary, which only the "
+                                "exact method can do"));
+                return false;
+            }
+            auto paths = boundary_paths(problem, *graph);
+            if (!paths) {
+                fail(EmbedStatus::failed, paths.error());
+                return false;
+            }
+            boundary = std::move(*paths);
+            for (const BoundaryPath& path : boundary) {
+                constraints->push_back({path.layout_edge, true, path.darts});
+            }
+        }
         solver = make_solver(problem, *graph, field_bytes, options, std::move(*constraints));
         return true;
     }
@@ -354,8 +381,9 @@ struct EmbedJob::Implementation {
 
     void finish_search()
     {
-        const Length bound = solver->lower_bound();
         const bool found = result.exact_cost != kInfiniteLength;
+        const Length bound =
+            solver->lower_bound() + (found ? static_cast<Length>(extra_cost) : Length{0});
         if (found) {
             const double gap = static_cast<double>(result.exact_cost - bound) /
                                static_cast<double>(result.exact_cost);
@@ -406,9 +434,33 @@ struct EmbedJob::Implementation {
             return;
         }
 #endif
+        WeakEmbedding incumbent = solver->incumbent();
+        std::int64_t extra = 0;
+        if (!boundary.empty()) {
+            // The class of these edges is given, only their paths change: what all others cost, and
+            // the bound for it, stay as they are.
+            auto moved = with_boundary_paths(problem, *graph, incumbent, boundary);
+            if (!moved) {
+                fail(EmbedStatus::failed,
+                     make_error(ErrorCode::internal,
+                                "a path is in the way of one along the target's boundary"));
+                return;
+            }
+            for (const BoundaryPath& path : boundary) {
+                extra += static_cast<std::int64_t>(path.length);
+                for (const Index dart : incumbent.paths[path.layout_edge].darts) {
+                    extra -= static_cast<std::int64_t>(graph->dart(dart).length);
+                }
+            }
+            incumbent = std::move(*moved);
+        }
         first_embedding_work = std::min(first_embedding_work, work);
-        result.weak = solver->incumbent();
-        result.exact_cost = solver->incumbent_cost();
+        result.weak = std::move(incumbent);
+        result.exact_cost = solver->incumbent_cost() + static_cast<Length>(extra);
+        if (extra > extra_cost) {
+            extra_cost = extra;
+            set_lower_bound(solver->lower_bound(), solver->bound_scope());
+        }
         result.cost = graph->to_units(result.exact_cost);
         set_gap();
         emit(EventKind::incumbent, solver->progress());
@@ -425,6 +477,7 @@ struct EmbedJob::Implementation {
                 fail(EmbedStatus::failed, form.error());
                 return;
             }
+            run_along_boundary(*form, boundary);
             measure_edges(*form);
             if (options.shape == PathShape::even) {
                 open_angles(*form, problem.landmarks, StraighteningOptions{}.spacing);

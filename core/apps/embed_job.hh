@@ -74,6 +74,10 @@ struct EmbedOptions {
     /// What is asked of single paths; for the exact method alone. Costs and bounds are those of the
     /// embeddings that comply.
     std::vector<PathConstraint> constraints;
+    /// Whether layout boundary edges with both landmarks on the target's boundary run along it
+    /// (apps/boundary_paths.hh); for the exact method alone. Costs and bounds are those of the
+    /// embeddings with these paths. Error: invalidOption.
+    bool boundary_is_followed = false;
     /// What paths cost; costs, bounds and the gap are in this metric. The shapes `short` and `fair`
     /// move paths without regard to it. Error: invalidOption.
     PathMetric metric;

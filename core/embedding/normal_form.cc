@@ -192,6 +192,32 @@ void NormalForm::pop_off_vertex(Index id, std::span<const Index> halfedges,
     elements_[vertex.next].previous = before;
 }
 
+void NormalForm::reroute(Index strand, std::span<const Index> vertices)
+{
+    const Index last = strand_lasts_[strand];
+    Index id = elements_[strand_firsts_[strand]].next;
+    while (id != last) {
+        const Index next = elements_[id].next;
+        if (elements_[id].is_crossing()) {
+            erase_crossing(id);
+        } else {
+            elements_[id] = Element{};
+            unused_.push_back(id);
+        }
+        id = next;
+    }
+    Index before = strand_firsts_[strand];
+    for (const Index vertex : vertices) {
+        const Index added = add_vertex(vertex);
+        elements_[added].strand = strand;
+        elements_[added].previous = before;
+        elements_[before].next = added;
+        before = added;
+    }
+    elements_[before].next = last;
+    elements_[last].previous = before;
+}
+
 Index NormalForm::remove_bigon(Index id)
 {
     // Never runs out of elements: a strand starts at a vertex, which stays.

@@ -104,6 +104,10 @@ public:
     /// are measured from the vertex as parameters. O(crossings).
     void pop_off_vertex(Index id, std::span<const Index> halfedges,
                         std::span<const double> distances);
+    /// Replaces all elements of a strand between its ends by vertices, each joined to the next by
+    /// an edge; that it gets there by an isotopy is the caller's business. O(elements of the
+    /// strand).
+    void reroute(Index strand, std::span<const Index> vertices);
     /// Erases the bigon of `id` and the next element of its strand, if there is one, and those that
     /// this makes of their neighbours. Returns `id`, or the last element before it that is left.
     Index remove_bigon(Index id);

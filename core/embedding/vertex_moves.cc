@@ -302,6 +302,9 @@ double VertexMoves::reach_from(Index vertex, Index edge) const
 Index VertexMoves::pop(Index element, double spacing)
 {
     const Index before = form_.element(element).previous;
+    if (form_.mesh().is_boundary_vertex(form_.element(element).vertex)) {
+        return kNone;  // It is to stay there.
+    }
     if (!pop_to_side(element, true, spacing) && !pop_to_side(element, false, spacing)) {
         return kNone;
     }

@@ -78,18 +78,20 @@ std::uint32_t with_refined(std::uint32_t handle, Body body)
 
 /// Makes a job from a layout, a target and `landmark_count` target vertex ids; they are checked
 /// together. `vertex_costs` and `feature_discount` as in PathMetric, the former with 0 or as many
-/// numbers as target vertices. `constraint_count` constraints on paths: the layout edge, 1 to keep
-/// or 0 to avoid, and a path as boundary_job_weak_points() gives them. Returns its handle.
+/// numbers as target vertices; `boundary_is_followed` as in EmbedOptions. `constraint_count`
+/// constraints on paths: the layout edge, 1 to keep or 0 to avoid, and a path as
+/// boundary_job_weak_points() gives them. Returns its handle.
 BOUNDARY_EXPORT(boundary_job_create)
 std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
                                   const Index* landmarks, std::size_t landmark_count,
                                   std::uint32_t algorithm, double gap, std::uint64_t seed,
                                   double time_limit, std::uint64_t work_limit, double memory_limit,
                                   std::uint32_t shape, std::uint32_t look_for_doubts,
-                                  const double* vertex_costs, std::size_t vertex_cost_count,
-                                  double feature_discount, const Index* constrained_edges,
-                                  const std::uint32_t* are_kept, const WeakPoint* path_points,
-                                  const Index* path_offsets, std::size_t constraint_count)
+                                  std::uint32_t boundary_is_followed, const double* vertex_costs,
+                                  std::size_t vertex_cost_count, double feature_discount,
+                                  const Index* constrained_edges, const std::uint32_t* are_kept,
+                                  const WeakPoint* path_points, const Index* path_offsets,
+                                  std::size_t constraint_count)
 {
     return guarded(0U, [&] {
         auto problem = make_problem(handles<LayoutObject>().get(layout).layout,
@@ -109,6 +111,7 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
         }
         options.shape = static_cast<PathShape>(shape);
         options.look_for_doubts = look_for_doubts != 0;
+        options.boundary_is_followed = boundary_is_followed != 0;
         options.memory_limit = memory_limit < static_cast<double>(kAddressableBytes)
                                    ? static_cast<std::uint64_t>(std::max(0.0, memory_limit))
                                    : kAddressableBytes;

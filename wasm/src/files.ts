@@ -57,6 +57,8 @@ export interface EmbeddingDocument {
     algorithm: string;
     /** How the paths run. */
     shape: string;
+    /** As in SolveOptions. */
+    boundaryEdges: string;
     /** A non-negative integer. */
     seed: number;
     /** What was asked for; null for no limit. */
@@ -186,6 +188,7 @@ export function embeddingDocument(exportable: Exportable): EmbeddingDocument {
         cpuSeconds: result.cpuSeconds,
         algorithm: options.algorithm,
         shape: options.shape,
+        boundaryEdges: options.boundaryEdges,
         seed: options.seed,
         limits: {
             gap: options.gap,

@@ -6,6 +6,7 @@ import { LayoutError } from "./errors.js";
 import { assertNotDisposed, defaultSlice, pause } from "./slices.js";
 import type {
     Algorithm,
+    BoundaryEdges,
     BoundScope,
     EmbeddedEdge,
     EmbedEvent,
@@ -34,6 +35,7 @@ const algorithms: Algorithm[] = [
     "exact",
 ];
 const shapes: PathShape[] = ["even", "short", "fair"];
+const boundaryEdges: BoundaryEdges[] = ["free", "follow"];
 const statuses: (EmbedStatus | "running" | "failed")[] = [
     "running",
     "optimal",
@@ -69,6 +71,7 @@ export interface JobOptions {
     workLimit: number;
     memoryLimit: number;
     seed: number;
+    boundaryEdges: BoundaryEdges;
     metric: { vertexCosts: Float64Array; featureDiscount: number };
     constraints: readonly PathConstraint[];
     doubts: boolean;
@@ -84,6 +87,7 @@ export function jobOptions(options: SolveOptions): JobOptions {
         workLimit: options.workLimit ?? Infinity,
         memoryLimit: options.memoryLimit ?? Infinity,
         seed: options.seed ?? 1,
+        boundaryEdges: options.boundaryEdges ?? "free",
         metric: {
             vertexCosts: Float64Array.from(options.metric?.vertexCosts ?? []),
             featureDiscount: options.metric?.featureDiscount ?? 0,
@@ -101,6 +105,12 @@ export function jobOptions(options: SolveOptions): JobOptions {
     }
     if (!shapes.includes(checked.shape)) {
         throw refuse("shape", checked.shape, shapes.join(", "));
+    }
+    if (!boundaryEdges.includes(checked.boundaryEdges)) {
+        throw refuse("boundaryEdges", checked.boundaryEdges, boundaryEdges.join(" or "));
+    }
+    if (checked.boundaryEdges === "follow" && checked.algorithm !== "exact") {
+        throw refuse("algorithm", checked.algorithm, "exact where edges follow the boundary");
     }
     if (!(checked.gap >= 0 && checked.gap <= 1)) {
         throw refuse("gap", checked.gap, "a number from 0 to 1");
@@ -172,6 +182,7 @@ export function createJob(
             options.memoryLimit,
             shapes.indexOf(options.shape),
             options.doubts ? 1 : 0,
+            boundaryEdges.indexOf(options.boundaryEdges),
             copy(metric.vertexCosts),
             metric.vertexCosts.length,
             metric.featureDiscount,

@@ -255,6 +255,12 @@ export interface PathMetric {
     featureDiscount?: number;
 }
 
+/**
+ * Whether layout boundary edges with both landmarks on the target's boundary run where they are
+ * shortest, or along the boundary from one to the other.
+ */
+export type BoundaryEdges = "free" | "follow";
+
 /** How the embedding is looked for, until when, and how that is told. */
 export interface SolveOptions {
     /** Default: exact. */
@@ -263,6 +269,12 @@ export interface SolveOptions {
     gap?: number;
     /** Default: short. */
     shape?: PathShape;
+    /**
+     * Default: free. `follow` is for the exact method alone; costs and bounds are those of the
+     * embeddings with these paths, all others being as short as they can. Where another landmark
+     * lies between the two, that is refused with `invalidOption`.
+     */
+    boundaryEdges?: BoundaryEdges;
     /** Seconds for the search; results then depend on the machine. Default: no limit. */
     timeLimit?: number;
     /**

@@ -7,6 +7,7 @@ import type {
     Algorithm,
     ExportFormat,
     ExportView,
+    BoundaryEdges,
     PathShape,
     QuadOptions,
     SolveOptions,
@@ -118,6 +119,7 @@ const solveOptions = {
     "memory-limit": { type: "string" },
     seed: { type: "string" },
     shape: { type: "string" },
+    "boundary-edges": { type: "string" },
     features: { type: "string" },
 } as const satisfies ParseArgsConfig["options"];
 
@@ -299,6 +301,7 @@ function solveValues(values: SolveValues): SolveOptions {
         ...given("memoryLimit", number("--memory-limit", values["memory-limit"], 1e6)),
         ...given("shape", values.shape as PathShape | undefined),
         ...given("seed", number("--seed", values.seed)),
+        ...given("boundaryEdges", values["boundary-edges"] as BoundaryEdges | undefined),
         ...given("metric", discount === undefined ? undefined : { featureDiscount: discount }),
     };
     jobOptions(solve);

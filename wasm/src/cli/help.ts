@@ -45,6 +45,8 @@ Options of embed
   --shape NAME         short (default): paths as straight as their neighbours allow; even: crossing
                        the target's edges at even distances; fair: short, then traced anew where
                        that makes thin patches rounder
+  --boundary-edges W   free (default) or follow: along the boundary of the target, where both
+                       landmarks of a layout boundary edge lie on it
   --features X         how much less paths cost along sharp edges, 0 (default) to 0.95; with
                        --shape even they stay there
   --vertex-costs FILE  one number per target vertex and line, 0.001 to 1000: what a unit of length
