@@ -5,14 +5,14 @@ import type { EmbeddingDocument } from "layout-embedding";
 import { expect, test } from "vitest";
 import { inFolder, run } from "./command.js";
 
-/** A square whose sides are bent inwards, in 2 n^2 triangles; vertex (x, y) is x + y (n + 1). */
-function bentSquare(n: number): string {
+/** A square whose sides are bent outwards, in 2 n^2 triangles; vertex (x, y) is x + y (n + 1). */
+function roundSquare(n: number): string {
     const lines: string[] = [];
     const bend = (t: number) => 0.3 * (1 - t * t);
     for (let y = 0; y <= n; ++y) {
         for (let x = 0; x <= n; ++x) {
             const [u, v] = [(2 * x) / n - 1, (2 * y) / n - 1];
-            lines.push(`v ${String(u * (1 - bend(v)))} ${String(v * (1 - bend(u)))} 0`);
+            lines.push(`v ${String(u * (1 + bend(v)))} ${String(v * (1 + bend(u)))} 0`);
         }
     }
     for (let y = 0; y < n; ++y) {
@@ -27,7 +27,7 @@ function bentSquare(n: number): string {
 test("edges_run_along_the_boundary_on_demand", () =>
     inFolder(async (cwd) => {
         const n = 12;
-        writeFileSync(path.join(cwd, "target.obj"), bentSquare(n));
+        writeFileSync(path.join(cwd, "target.obj"), roundSquare(n));
         writeFileSync(
             path.join(cwd, "layout.obj"),
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n",
