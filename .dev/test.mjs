@@ -5,6 +5,7 @@ import { mkdirSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { parseArgs } from "node:util";
 import { buildPackage, buildPage, buildPreset, installPackages, jobs } from "./build.mjs";
+import { beginProfiles, coverageProblems } from "./coverage.mjs";
 import { printSummary, readCtest, readVitest } from "./reports.mjs";
 import { StepError, inLane, main, root, run, say } from "./run.mjs";
 import { ensureSystemPackages } from "./system.mjs";
@@ -23,7 +24,7 @@ const packageBuilt = () => built("package", buildPackage);
 const presetBuilt = (preset) => built(preset, () => buildPreset(preset));
 
 /** The C++ tests of a preset, run by CTest. */
-function ctest(preset, ...selection) {
+function ctest(preset, selection = [], env = {}) {
     return async () => {
         await presetBuilt(preset);
         const report = path.join(results, `${preset}.xml`);
@@ -36,10 +37,20 @@ function ctest(preset, ...selection) {
         const exitCode = await run(
             "ctest",
             ["--test-dir", `build/${preset}`, ...jobs, ...selection, ...reporting, ...everything],
-            { allowFailure: true },
+            { allowFailure: true, env },
         );
         return { ...readCtest(report), exitCode };
     };
+}
+
+/**
+ * With sanitizers everything is an order of magnitude slower: only the quick tests, short fuzz runs
+ * among them. How much of the core they run through is measured on the way.
+ */
+async function sanitizerTests() {
+    const env = await beginProfiles();
+    const outcome = await ctest("debug", ["-LE", "slow"], env)();
+    return { ...outcome, errors: [...outcome.errors, ...(await coverageProblems())] };
 }
 
 /** One of the projects in tests/vitest.config.ts, after what it needs is built. */
@@ -62,8 +73,7 @@ function vitest(project, buildAll) {
 
 const parts = {
     release: { name: "C++, release", run: ctest("release") },
-    // With sanitizers everything is an order of magnitude slower. Short fuzz runs are among them.
-    debug: { name: "C++, sanitizers", run: ctest("debug", "-LE", "slow") },
+    debug: { name: "C++, sanitizers", run: sanitizerTests },
     node: {
         name: "Node",
         run: vitest("node", async (chosen) => {
