@@ -478,10 +478,11 @@ struct EmbedJob::Implementation {
                 return;
             }
             run_along_boundary(*form, boundary);
-            measure_edges(*form);
+            NormalForm even = *form;
+            open_angles(even, problem.landmarks, StraighteningOptions{}.spacing);
+            measure_edges(even);
             if (options.shape == PathShape::even) {
-                open_angles(*form, problem.landmarks, StraighteningOptions{}.spacing);
-                cut(*form);
+                cut(even);
                 return;
             }
             straightening = std::make_unique<Straightening>(std::move(*form), problem.landmarks);
