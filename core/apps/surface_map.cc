@@ -122,12 +122,12 @@ Status SurfaceMapJob::place()
     return {};
 }
 
-/// Judged by places alone, the first pass leads out of bad maps that samples hold back; the others
-/// lower what it left between places.
+/// Judged by places alone, the first of several passes leads out of bad maps that samples hold
+/// back; all else lowers what it left between places.
 MapEnergy SurfaceMapJob::judged_by() const
 {
-    const Index passes_begun = stage_ == Stage::paths ? pass_ + 1 : pass_;
-    return passes_begun == 1 ? MapEnergy::places : MapEnergy::places_and_samples;
+    const bool is_first = stage_ == Stage::paths && pass_ == 0 && options_.seam_passes > 1;
+    return is_first ? MapEnergy::places : MapEnergy::places_and_samples;
 }
 
 Status SurfaceMapJob::optimise()
@@ -137,7 +137,15 @@ Status SurfaceMapJob::optimise()
         std::vector<PlacedTarget> moved = map_.placed_;
         MapOptimisation(*map_.layout_, moved[0], moved[1], judged_by()).round();
         const double excess = map_.distortion_.mean_energy - kIsometry;
-        const auto gain = keep_if_better(std::move(moved));
+        auto gain = keep_if_better(std::move(moved));
+        if (gain && !(*gain > 0)) {
+            // Patches that get worse by themselves may still make the whole better.
+            moved = map_.placed_;
+            MapOptimisation(*map_.layout_, moved[0], moved[1], MapEnergy::samples)
+                .round(std::vector<bool>(map_.layout_->face_count(), true),
+                       std::vector<bool>(map_.layout_->edge_count(), true));
+            gain = keep_if_better(std::move(moved));
+        }
         if (!gain) {
             return gain.error();
         }
@@ -153,13 +161,16 @@ Status SurfaceMapJob::optimise()
 Status SurfaceMapJob::move_paths()
 {
     std::vector<PlacedTarget> moved = map_.placed_;
-    if (SeamOptimisation(*map_.layout_, moved[0], moved[1], judged_by()).pass() == 0) {
+    const bool has_moved =
+        SeamOptimisation(*map_.layout_, moved[0], moved[1], judged_by()).pass() > 0;
+    if (!has_moved && pass_ > 0) {
         stage_ = Stage::check;
         return {};
     }
-    const auto gain = keep_if_better(std::move(moved));
-    if (!gain) {
-        return gain.error();
+    if (has_moved) {
+        if (const auto gain = keep_if_better(std::move(moved)); !gain) {
+            return gain.error();
+        }
     }
     ++pass_;
     round_ = 0;

@@ -73,6 +73,16 @@ public:
         }
     }
 
+    /// Of all patches, as they were last set.
+    double exact_energy() const
+    {
+        double sum = 0;
+        for (Index face = 0; face < layout_.face_count(); ++face) {
+            sum += patches_[face] ? exact_energy(face) : 0;
+        }
+        return sum;
+    }
+
     void finish()
     {
         for (Index face = 0; face < layout_.face_count(); ++face) {
@@ -237,8 +247,13 @@ void MapOptimisation::move(const std::vector<bool>& faces, const std::vector<boo
         MovingTarget moving(layout_, *targets_[side], *targets_[1 - side],
                             side == 0 ? scale_ : 1 / scale_, side == 0, judged_by_, faces);
         moving.improve_inside(is_exact);
+        const PlacedTarget before = *targets_[side];
+        const double energy = is_exact ? moving.exact_energy() : 0;
         moving.improve_chains(edges);
         moving.finish();
+        if (is_exact && !(moving.exact_energy() < energy)) {
+            *targets_[side] = before;
+        }
     }
 }
 

@@ -113,8 +113,7 @@ void MovingPatch::look_around(Index v)
         const PlanePoint& next = points_[c[(corner + 1) % 3]];
         const PlanePoint& last = points_[c[(corner + 2) % 3]];
         Opposite opposite{t, corner, {lifted(next), lifted(last), lifted((next + last) / 2)}, {}};
-        for (std::size_t i = 0; judged_by_ == MapEnergy::places_and_samples && i < kSamples.size();
-             ++i) {
+        for (std::size_t i = 0; judged_by_ != MapEnergy::places && i < kSamples.size(); ++i) {
             const PlanePoint p = kSamples[i][0] * points_[c[0]] + kSamples[i][1] * points_[c[1]] +
                                  kSamples[i][2] * points_[c[2]];
             opposite.metrics[i] = metrics_[location_.find(p).triangle];
@@ -158,6 +157,10 @@ double MovingPatch::energy_as_seen(Index v) const
         if (!(cross(next - point, last - point) > 0)) {
             return std::numeric_limits<double>::infinity();
         }
+        if (judged_by_ == MapEnergy::samples) {
+            sum += sampled_energy(opposite);
+            continue;
+        }
         // Corners, and the middles of the sides that begin at them.
         std::array<Vec3, 3> c;
         std::array<Vec3, 3> m;
@@ -181,7 +184,7 @@ double MovingPatch::energy_as_seen(Index v) const
         add(c[1] - m[0], m[1] - m[0]);
         add(m[1] - m[2], c[2] - m[2]);
         add(m[1] - m[2], m[1] - m[0]);
-        if (judged_by_ == MapEnergy::places_and_samples) {
+        if (judged_by_ != MapEnergy::places) {
             sum += sampled_energy(opposite);
         }
     }

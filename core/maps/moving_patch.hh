@@ -14,6 +14,8 @@ enum class MapEnergy {
     /// between places.
     places,
     places_and_samples,
+    /// Finds a way on where the others find none, on coarse meshes above all.
+    samples,
 };
 
 /// A patch's map onto a domain while its vertices are moved, over another target's map onto the
