@@ -275,7 +275,6 @@ private:
 
     bool look_around(Index v)
     {
-        static const Domain directions = regular_polygon(8);
         const Vec3 old_position = mesh_.positions[v];
         const SurfacePoint old_point = mesh_.points[v];
         double length = 0;
@@ -294,7 +293,7 @@ private:
         double best = before;
         SurfacePoint best_point = old_point;
         for (const double step : {0.4, 0.15, 0.05, 0.015}) {
-            for (const PlanePoint& direction : directions) {
+            for (const PlanePoint& direction : directions_) {
                 mesh_.points[v] = walk_to_nearest(
                     target_, old_point,
                     old_position +
@@ -369,9 +368,10 @@ private:
     int turn_ = 0;
     int turns_in_vain_ = 0;
     Index least_flipped_ = kNone;
-    std::vector<bool> is_active_;  // per vertex, while smoothing
-    std::vector<Vec3> normals_;    // per face of the target
-    std::vector<Index> offsets_;   // per vertex: its first place in quads_
+    std::vector<bool> is_active_;                   // per vertex, while smoothing
+    std::vector<Vec3> normals_;                     // per face of the target
+    const Domain directions_ = regular_polygon(8);  // that are tried around a vertex
+    std::vector<Index> offsets_;                    // per vertex: its first place in quads_
     std::vector<Index> quads_;
 };
 

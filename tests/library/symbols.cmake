@@ -7,8 +7,7 @@ set(constants
   "all_error_infos\\(\\)::table"
   "patch_palette\\(\\)::palette"
   "tube\\(.*\\)::circle"
-  "GlbReader::list\\(.*\\)::none"
-  "QuadRelaxation::look_around<.*>\\(.*\\)::directions")
+  "GlbReader::list\\(.*\\)::none")
 set(printing
   "std::(cin|cout|cerr|clog|wcout|wcerr)$" "std::ios_base::Init"
   " (printf|vprintf|puts|putchar|fprintf|vfprintf|fputs|fputc|fwrite|stdout|stderr)$")

@@ -35,7 +35,7 @@ afterAll(() => {
 describe.each([
     ["here", () => Session.create()],
     ["in_a_worker", () => worker.createSession()],
-] as [string, () => Promise<EmbeddingSession>][])("%s", (where, create) => {
+] as [string, () => Promise<EmbeddingSession>][])("%s", (_, create) => {
     let session: EmbeddingSession;
     beforeEach(async () => {
         session = await create();
@@ -101,8 +101,7 @@ describe.each([
         expect(shares.at(-1)).toBe(1);
         expect(shares).toEqual([...shares].sort((a, b) => a - b));
         const untouched = await best(session.quads({ edgeLength, signal: AbortSignal.abort() }));
-        // Word reaches a worker after the first slice.
-        if (where === "here") expect(untouched.positions).toEqual(plain.positions);
+        expect(untouched.positions).toEqual(plain.positions);
         expect(untouched.quads).toEqual(whole.quads);
 
         await session.setReference();
@@ -116,11 +115,11 @@ describe.each([
                 signal: abort.signal,
                 onProgress: (share) => {
                     seen.push(share);
-                    abort.abort();
+                    if (share > 0.5) abort.abort();
                 },
             }),
         );
-        expect(seen[0]).toBeLessThan(1);
+        expect(seen.at(-1)).toBeLessThan(1);
         const complete = await session.mapFromReference();
         expect(map.firstDistortion).toEqual(complete.firstDistortion);
         expect(map.distortion.meanEnergy).toBeLessThan(map.firstDistortion.meanEnergy);

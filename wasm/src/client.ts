@@ -198,22 +198,14 @@ export class EmbeddingWorker {
                 (id) => {
                     abort = () => this.port?.post({ kind: "abort", id });
                     const abortable = local !== null;
-                    return { kind: "call", id, session, method, args, abortable };
+                    const aborted = signal?.aborted === true;
+                    return { kind: "call", id, session, method, args, abortable, aborted };
                 },
                 onProgress as Pending["onProgress"],
             );
         const before = this.ending.get(session);
         // Only the end of a session need not wait for its calls.
-        const reply =
-            before === undefined || method === "dispose"
-                ? start()
-                : before.then(() => {
-                      const started = start();
-                      if (signal?.aborted === true) {
-                          abort();
-                      }
-                      return started;
-                  });
+        const reply = before === undefined || method === "dispose" ? start() : before.then(start);
         return signal === undefined
             ? reply
             : this.unlessAborted(session, reply, signal, () => {

@@ -16,7 +16,10 @@ export type Request =
       }
     /** Makes a session, known by the request's id from then on. */
     | { kind: "create"; id: number }
-    /** `abortable`: the last argument are options, to which signal and onProgress are added. */
+    /**
+     * `abortable`: the last argument are options, to which signal and onProgress are added;
+     * `aborted`: by a signal that is aborted already.
+     */
     | {
           kind: "call";
           id: number;
@@ -24,6 +27,7 @@ export type Request =
           method: SessionMethod;
           args: unknown[];
           abortable: boolean;
+          aborted: boolean;
       }
     /** Aborts a call under way. */
     | { kind: "abort"; id: number };

@@ -52,7 +52,7 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
             >;
             const args = [...request.args];
             if (request.abortable) {
-                args.push({ ...(args.pop() as object), ...whileRunning(request.id, send) });
+                args.push({ ...(args.pop() as object), ...whileRunning(request, send) });
             }
             return methods[request.method]?.(...args);
         }
@@ -60,8 +60,11 @@ async function perform(request: Exclude<Request, { kind: "abort" }>, send: Send)
 }
 
 /** The options of a call that stand for what cannot be sent. */
-function whileRunning(id: number, send: Send) {
+function whileRunning({ id, aborted }: { id: number; aborted: boolean }, send: Send) {
     const abort = new AbortController();
+    if (aborted) {
+        abort.abort();
+    }
     aborts.set(id, abort);
     return {
         signal: abort.signal,
