@@ -127,6 +127,53 @@ test("of_a_damaged_session_everything_is_opened_that_can_be_read", async () => {
     expect(await page.textContent("#layout-caption")).toMatch(/^8 vertices/);
 });
 
+test("tabs_are_as_they_were_left_also_with_a_shape_that_nobody_edited", async () => {
+    const { page } = opened();
+    const home = inject("pageUrl").replace(/\/$/, "/index.html");
+    await page.goto("about:blank");
+    await page.goto(`${inject("pageUrl")}#shape=vase/tulip`);
+    await untilStatus(page, solved);
+    await page.click("#tab-quads");
+    await page.locator("#quad-figures dd").first().waitFor();
+    await page.fill("#edge-length", "0.5");
+    await page.press("#edge-length", "Enter");
+    await page.click("#loops summary");
+    const loop = page.locator("#loop-rows input").first();
+    await loop.fill("8");
+    await loop.press("Enter");
+    await page.click("#tab-map");
+    await page.click("#map-shapes button");
+    await page.locator("#map-figures dd").first().waitFor();
+    await page.selectOption("#texture", "checker");
+    await page.fill("#map-vertex", "300");
+    await page.press("#map-vertex", "Enter");
+    const second = await page.textContent("#map-caption");
+    const points = () => page.locator("#map-points dd").allTextContents();
+    const first = await points();
+    const asLeft = async () => {
+        await page.locator("#map-figures dd").first().waitFor();
+        expect(await page.getAttribute("#tab-map", "aria-selected")).toBe("true");
+        expect(await page.textContent("#map-caption")).toBe(second);
+        expect(await page.inputValue("#texture")).toBe("checker");
+        expect((await points())[0]).toBe(first[0]);
+        expect((await points())[1]).toMatch(/^near vertex/);
+    };
+    await page.goto(home);
+    await asLeft();
+    await page.click("#tab-quads");
+    await page.click("#loops summary");
+    expect(await page.inputValue("#edge-length")).toBe("0.5");
+    expect(await loop.inputValue()).toBe("8");
+    await page.click("#tab-map");
+    // It is still there after another visit in which nothing was done but looked at.
+    await page.waitForTimeout(700);
+    await page.goto("about:blank");
+    await page.goto(home);
+    await asLeft();
+    await page.click("#tab-embedding");
+    expect(await page.textContent("#target-name")).toBe("tulip.obj");
+});
+
 test("a_link_opens_a_shape_with_its_settings", async () => {
     const { page } = opened();
     await page.goto("about:blank");

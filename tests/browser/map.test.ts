@@ -162,7 +162,8 @@ test("a_map_is_stopped_without_losing_anything_and_gone_on_with", async () => {
     await page.getByRole("button", { name: "Amphora", exact: true }).click();
     await untilMapped(/^Optimising/);
     await page.click("#map-stop");
-    await untilMapped(/, not optimised/);
+    // As far as it has come, with the figures of that.
+    await untilMapped(/, partly optimised/);
     expect(await page.isVisible("#map-running")).toBe(false);
     expect(await page.locator("#map-figures dd").count()).toBe(4);
     expect(await page.textContent("#embedded")).toMatch(/^(\d+) of \1$/);
@@ -201,6 +202,55 @@ test("a_second_target_is_dropped_with_its_landmarks", async () => {
     ]);
     await untilMapped(/boundary|do not fit|Euler/);
     expect(await page.textContent("#embedded")).toBe("12 of 12");
+});
+
+test("texture_coordinates_of_the_first_targets_file_go_along", async () => {
+    const { page } = opened();
+    const own = page.locator("#texture option[value=file]");
+    expect(await own.isDisabled()).toBe(true);
+    await page.click("#tab-embedding");
+    const textured = ball(2);
+    const lines = Array.from(
+        { length: textured.positions.length / 3 },
+        (_, v) => `vt ${textured.positions.slice(3 * v, 3 * v + 2).join(" ")}`,
+    );
+    const faces = textured.faces.map(
+        (face) => `f ${face.map((v) => `${v + 1}/${v + 1}`).join(" ")}`,
+    );
+    const vertices = toObj(textured)
+        .split("\n")
+        .filter((line) => line.startsWith("v "));
+    await page.setInputFiles(
+        "#target-file",
+        textFile("ball.obj", [...vertices, ...lines, ...faces, ""].join("\n")),
+    );
+    await untilStatus(page, ready);
+    await solve(page);
+    await page.click("#tab-map");
+    await drop(page, [
+        { name: "egg.obj", text: toObj(stretched(ball(2))) },
+        { name: "egg.txt", text: "0\n1\n2\n3\n4\n5\n6\n7\n" },
+    ]);
+    await untilMapped();
+    const pictureOf = async (texture: string) => {
+        await page.selectOption("#texture", texture);
+        await frames(page);
+        return colorsOf(page, "#map-view canvas");
+    };
+    const grid = await pictureOf("grid");
+    expect(await pictureOf("file")).not.toEqual(grid);
+    expect(await page.textContent("#texture-text")).toContain("texture coordinates");
+    for (const name of ["overlay_a.obj", "overlay_b.obj"]) {
+        const bytes = await downloaded(page, () => page.click(`[data-map-file="${name}"]`));
+        const overlay = bytes.toString().split("\n");
+        const corners = overlay.filter((line) => line.startsWith("f "));
+        expect(corners.length).toBeGreaterThan(textured.faces.length);
+        expect(corners.every((line) => /^f( \d+\/\d+){3}$/.test(line))).toBe(true);
+        // The texture is the place on the first target: u and v of the vertices there.
+        const [u] = overlay.filter((line) => line.startsWith("vt ")).map((line) => line.split(" "));
+        expect(Math.abs(Number(u?.[1]))).toBeLessThanOrEqual(1);
+    }
+    await page.selectOption("#texture", "grid");
 });
 
 test("a_second_target_is_saved_with_a_session_and_is_there_after_a_reload", async () => {

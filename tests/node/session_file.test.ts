@@ -5,7 +5,7 @@ import { unzipSync, zipSync } from "fflate";
 import type { MeshFile } from "layout-embedding";
 import { expect, test } from "vitest";
 import { packSession, unpackSession } from "../../web/src/model/session_file.js";
-import type { SavedWork } from "../../web/src/model/sources.js";
+import type { SavedWork } from "../../web/src/model/saved_work.js";
 import { initialState } from "../../web/src/model/state.js";
 import { arrays, file, octahedron, sphere } from "./meshes.js";
 
@@ -16,10 +16,13 @@ const work: SavedWork = {
     making: false,
     quads: true,
     repair: true,
-    options: { ...initialState.options, gap: 0.5, seed: 7 },
+    options: { ...initialState.options, gap: 0.5, seed: 7, featureDiscount: 0.4 },
     origin: { kind: "shape", name: "hand/victory" },
     routes: [{ rule: "avoid", edge: 2, path: [[1], [1, 2], [3]], edgeCost: 2, costBefore: null }],
     second: { files: [new File(["v 0 0 0"], "other.obj")] },
+    quadMesh: { edgeLength: 0.25, segments: [[3, 8]] },
+    map: { texture: "checker", cursor: { from: "b", vertex: 5 } },
+    tab: "quads",
     solved: true,
 };
 const packed = zipSync(await packSession(work));
@@ -38,6 +41,7 @@ function read(bytes: Uint8Array): ReturnType<typeof unpackSession> | null {
         return null;
     }
     const { layout, target, landmarks, options, origin, routes, second } = session.work;
+    const { quadMesh, map, tab } = session.work;
     expect(layout ?? target).not.toBeNull();
     for (const mesh of [layout, target]) {
         if (mesh === null) continue;
@@ -58,6 +62,14 @@ function read(bytes: Uint8Array): ReturnType<typeof unpackSession> | null {
     expect(["even", "short", "fair"]).toContain(options.shape);
     if (origin !== null) expect(Object.values(origin).map((v) => typeof v)).not.toContain("object");
     for (const { edge, path } of routes) expect(isId(edge) && path.flat().every(isId)).toBe(true);
+    expect(options.featureDiscount >= 0 && options.featureDiscount <= 0.95).toBe(true);
+    expect(["free", "follow"]).toContain(options.boundaryEdges);
+    expect(quadMesh.edgeLength === null || quadMesh.edgeLength > 0).toBe(true);
+    expect(quadMesh.segments.every((pair) => pair.length === 2 && pair.every(isId))).toBe(true);
+    expect(["grid", "checker", "patches", "distortion", "file"]).toContain(map.texture);
+    if (map.cursor !== null) expect(["a", "b"]).toContain(map.cursor.from);
+    expect(map.cursor === null || isId(map.cursor.vertex)).toBe(true);
+    expect(["embedding", "quads", "map"]).toContain(tab);
     if (second && "files" in second)
         expect(second.files.every((each) => each instanceof File)).toBe(true);
     return session;

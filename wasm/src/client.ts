@@ -36,6 +36,7 @@ import type {
     SurfaceMapProblem,
     SurfacePoints,
     TargetInfo,
+    TargetLoadOptions,
     TemplateLayout,
     TemplateOptions,
     TemplateProblem,
@@ -45,6 +46,7 @@ import type {
 
 export { CancelledError, LayoutError } from "./errors.js";
 export { mapFiles } from "./map_files.js";
+export { algorithmNames, pathShapeNames } from "./names.js";
 export type * from "./types.js";
 
 /** How a worker is started. */
@@ -318,7 +320,7 @@ class WorkerSession implements EmbeddingSession {
         return this.callWith(options, "loadLayout", input) as Promise<LayoutInfo>;
     }
 
-    loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
+    loadTarget(input: MeshInput, options: TargetLoadOptions = {}): Promise<TargetInfo> {
         return this.callWith(options, "loadTarget", input) as Promise<TargetInfo>;
     }
 

@@ -3,6 +3,7 @@
 import type { Core, Handle } from "./core.js";
 import { drawnPaths } from "./drawn_paths.js";
 import { LayoutError } from "./errors.js";
+import { algorithmNames, pathShapeNames } from "./names.js";
 import { assertNotDisposed, defaultSlice, pause } from "./slices.js";
 import type {
     Algorithm,
@@ -26,15 +27,6 @@ import type {
 import { flattenedWeakPaths } from "./weak_paths.js";
 
 // In the order of the core's enumerations (core/apps/embed_job.hh).
-const algorithms: Algorithm[] = [
-    "greedy",
-    "praun",
-    "kraevoy",
-    "schreiner",
-    "branch-and-bound",
-    "exact",
-];
-const shapes: PathShape[] = ["even", "short", "fair"];
 const boundaryEdges: BoundaryEdges[] = ["free", "follow"];
 const statuses: (EmbedStatus | "running" | "failed")[] = [
     "running",
@@ -53,9 +45,6 @@ const scopes: BoundScope[] = ["embeddings", "insertionSequences"];
 const phases: EmbedPhase[] = ["prepare", "search", "realise", "check", "done"];
 const doubtKinds: LandmarkDoubt["kind"][] = ["mirrored", "exchanged"];
 const eventKinds: EmbedEventKind[] = ["phase", "incumbent", "bound", "progress"];
-
-/** The names of the algorithms there are. */
-export const algorithmNames: readonly string[] = algorithms;
 
 const none = 0xffff_ffff;
 const maximalWork = 0xffff_ffff_ffff_ffffn;
@@ -100,11 +89,11 @@ export function jobOptions(options: SolveOptions): JobOptions {
             "invalidOption",
             `the option ${name} is ${String(value)}; it has to be ${wanted}.`,
         );
-    if (!algorithms.includes(checked.algorithm)) {
-        throw refuse("algorithm", checked.algorithm, algorithms.join(" or "));
+    if (!algorithmNames.includes(checked.algorithm)) {
+        throw refuse("algorithm", checked.algorithm, algorithmNames.join(" or "));
     }
-    if (!shapes.includes(checked.shape)) {
-        throw refuse("shape", checked.shape, shapes.join(", "));
+    if (!pathShapeNames.includes(checked.shape)) {
+        throw refuse("shape", checked.shape, pathShapeNames.join(", "));
     }
     if (!boundaryEdges.includes(checked.boundaryEdges)) {
         throw refuse("boundaryEdges", checked.boundaryEdges, boundaryEdges.join(" or "));
@@ -174,13 +163,13 @@ export function createJob(
             target,
             copy(landmarks),
             landmarks.length,
-            algorithms.indexOf(options.algorithm),
+            algorithmNames.indexOf(options.algorithm),
             options.gap,
             BigInt(options.seed),
             options.timeLimit,
             workAmount(options.workLimit),
             options.memoryLimit,
-            shapes.indexOf(options.shape),
+            pathShapeNames.indexOf(options.shape),
             options.doubts ? 1 : 0,
             boundaryEdges.indexOf(options.boundaryEdges),
             copy(metric.vertexCosts),
@@ -197,7 +186,7 @@ export function createJob(
 
 /** Has a job that has ended start again with another shape; false where it has no embedding. */
 export function reshapeJob(core: Core, job: Handle, shape: PathShape): boolean {
-    return core.test("boundary_job_reshape", job, shapes.indexOf(shape));
+    return core.test("boundary_job_reshape", job, pathShapeNames.indexOf(shape));
 }
 
 /**

@@ -1,6 +1,6 @@
 // What is written of a map: the images of vertices as JSON, the overlay as OBJ on either target.
 import { jsonBytes } from "./files.js";
-import type { SurfaceMap, SurfacePoints } from "./types.js";
+import type { MeshFile, SurfaceMap, SurfacePoints } from "./types.js";
 
 /** The version of map.json. */
 const fileVersion = 1;
@@ -98,14 +98,21 @@ function interpolated(texture: Float64Array, face: number, weights: Float64Array
  * The texture coordinates of an OBJ file of triangles, 6 per face, two for each corner; null where
  * it is another file or not every corner has some.
  */
-export function textureCoordinates(bytes: Uint8Array, name: string): Float64Array | null {
-    if (!/\.obj$/i.test(name)) {
+export function textureCoordinates({ bytes, name = "", format }: MeshFile): Float64Array | null {
+    if (format === undefined ? !/\.obj$/i.test(name) : format !== "obj") {
+        return null;
+    }
+    const text = new TextDecoder().decode(bytes);
+    if (!/^\s*vt\s/m.test(text)) {
         return null;
     }
     const coordinates: number[] = [];
     const faces: number[] = [];
-    for (const line of new TextDecoder().decode(bytes).split(/\r?\n/)) {
-        const [keyword, ...words] = line.trim().split(/\s+/);
+    for (let begin = 0; begin < text.length;) {
+        const newline = text.indexOf("\n", begin);
+        const end = newline < 0 ? text.length : newline;
+        const [keyword, ...words] = text.slice(begin, end).trim().split(/\s+/);
+        begin = end + 1;
         if (keyword === "vt") {
             coordinates.push(Number(words[0]), Number(words[1] ?? 0));
         } else if (keyword === "f") {

@@ -15,6 +15,7 @@ import {
 import { exportJob } from "./formats.js";
 import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
+import { textureCoordinates } from "./map_files.js";
 import { imagesOf, keepEmbedding, makeMap, readMap } from "./maps.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
 import { makeQuads } from "./quads.js";
@@ -45,6 +46,7 @@ import type {
     SurfaceMapOptions,
     SurfacePoints,
     TargetInfo,
+    TargetLoadOptions,
     TemplateLayout,
     TemplateOptions,
     UncheckedMesh,
@@ -59,6 +61,9 @@ interface Loaded {
     record: InputRecord;
     vertexCount: number;
 }
+
+/** What is told of layouts and targets alike. */
+type MeshInfo = Omit<TargetInfo, "textureCoordinates">;
 
 /** The last embedding, kept for export. */
 interface Solved {
@@ -103,12 +108,15 @@ export class Session implements EmbeddingSession {
         return info;
     }
 
-    async loadTarget(input: MeshInput, options: LoadOptions = {}): Promise<TargetInfo> {
+    async loadTarget(input: MeshInput, options: TargetLoadOptions = {}): Promise<TargetInfo> {
         const [loaded, common] = await this.load("target", input, options);
         this.forget(this.target);
         this.target = loaded;
         this.landmarks = null;
-        return common;
+        // After a repair, faces are others.
+        const isAsItWas = "bytes" in input && loaded.mesh.vertexMap === null;
+        const wanted = options.textureCoordinates === true && isAsItWas;
+        return { ...common, textureCoordinates: wanted ? textureCoordinates(input) : null };
     }
 
     async inspect(
@@ -387,7 +395,7 @@ export class Session implements EmbeddingSession {
         role: "layout" | "target",
         input: MeshInput,
         options: LoadOptions,
-    ): Promise<[Loaded, TargetInfo]> {
+    ): Promise<[Loaded, MeshInfo]> {
         this.assertAlive();
         const { core } = this;
         const record: InputRecord = { role, name: input.name ?? null, sha256: null };
@@ -426,7 +434,7 @@ export class Session implements EmbeddingSession {
         surface: Handle,
         mesh: LoadedMesh,
         name: string,
-    ): TargetInfo {
+    ): MeshInfo {
         const { positions, corners } = arraysOf(this.core, mesh.handle);
         this.core.call(`boundary_${role}_counts`, surface);
         const [vertexCount = 0, edgeCount = 0, faceCount = 0, boundaryLoopCount = 0] =

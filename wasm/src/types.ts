@@ -67,6 +67,15 @@ export interface LoadOptions extends Pick<CallOptions, "signal"> {
     repair?: boolean;
 }
 
+/** How a target is read. */
+export interface TargetLoadOptions extends LoadOptions {
+    /**
+     * Whether texture coordinates are looked for in the file (TargetInfo.textureCoordinates), which
+     * takes a while for a large one. Off by default.
+     */
+    textureCoordinates?: boolean;
+}
+
 /** What was done to an input, or what deserves attention; one sentence each. */
 export type Notes = string[];
 
@@ -126,6 +135,11 @@ export interface TargetInfo {
     positions: Float64Array;
     /** 3 vertex ids per triangle, counter-clockwise. */
     corners: Uint32Array;
+    /**
+     * 6 numbers per triangle, two for each corner, for mapFiles(); null where they were not asked
+     * for, after a repair, and where the file is no OBJ file with some at every corner.
+     */
+    textureCoordinates: Float64Array | null;
     /** Per vertex of the input: its id here, -1 where it was removed; null without a repair. */
     vertexMap: Int32Array | null;
     /** What was repaired, or deserves attention. */
@@ -778,7 +792,7 @@ export interface EmbeddingSession {
     /** Reads a layout. A failed load changes nothing; a successful one forgets the landmarks. */
     loadLayout(input: MeshInput, options?: LoadOptions): Promise<LayoutInfo>;
     /** Reads a target. A failed load changes nothing; a successful one forgets the landmarks. */
-    loadTarget(input: MeshInput, options?: LoadOptions): Promise<TargetInfo>;
+    loadTarget(input: MeshInput, options?: TargetLoadOptions): Promise<TargetInfo>;
     /**
      * What loadLayout() or loadTarget() would read, without confirming that it is a surface: to show
      * the place that an error names. Changes nothing in the session.

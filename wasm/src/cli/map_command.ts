@@ -1,7 +1,7 @@
 // layout-embedding map: one layout in two targets, and the map between these.
 import path from "node:path";
 import { javaScriptError } from "../errors.js";
-import { mapFiles, textureCoordinates } from "../map_files.js";
+import { mapFiles } from "../map_files.js";
 import { Session } from "../session.js";
 import type { SurfaceMap } from "../types.js";
 import type { MapCommand } from "./arguments.js";
@@ -25,7 +25,10 @@ export async function runMap(command: MapCommand): Promise<Outcome> {
         const files: string[] = [];
         for (const [side, name] of names.entries()) {
             const target = await readInput(`target ${name}`, command.targets[side] ?? "");
-            const { notes, vertexMap } = await session.loadTarget(target, options);
+            const { notes, textureCoordinates } = await session.loadTarget(target, {
+                ...options,
+                textureCoordinates: side === 0,
+            });
             note(command, notes);
             const landmarks = command.landmarks[side] ?? null;
             const set =
@@ -47,8 +50,7 @@ export async function runMap(command: MapCommand): Promise<Outcome> {
             files.push(...(await folder.write({ ...(await session.exportFiles()) })));
             if (side === 0) {
                 await session.setReference();
-                // After a repair, faces are others.
-                texture = vertexMap === null ? textureCoordinates(target.bytes, target.name) : null;
+                texture = textureCoordinates;
             }
         }
         const map = await session.mapFromReference(command.map);

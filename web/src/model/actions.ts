@@ -11,7 +11,13 @@ import type { Example } from "../examples/index.js";
 import type { Shape } from "../gallery/catalogue.js";
 import { aligned, areFarApart } from "./alignment.js";
 import { Batch, pairFiles } from "./batch.js";
-import { algorithmWords, causeAndAdvice, reshapeWords, titleOf } from "./describe.js";
+import {
+    algorithmWords,
+    causeAndAdvice,
+    pathSettingWords,
+    reshapeWords,
+    titleOf,
+} from "./describe.js";
 import type { Engine, Worker } from "./engine.js";
 import { assignRoles, look } from "./files.js";
 import { LandmarkEditor, unsolved } from "./landmark_editor.js";
@@ -25,15 +31,18 @@ import {
     type Display,
     type Item,
     type Origin,
+    type PathSettings,
     type Problem,
     type Tab,
 } from "./state.js";
 import { QuadPreview } from "./quad_preview.js";
-import { layoutRemedy, meshRemedy } from "./remedies.js";
+import { boundaryRemedy, layoutRemedy, meshRemedy } from "./remedies.js";
 import { RouteEditor } from "./route_editor.js";
 import { droppedWords, fits } from "./routes.js";
+import { savedRest, type SavedWork } from "./saved_work.js";
+import { heuristicOptions } from "./solve_options.js";
 import { Solving } from "./solving.js";
-import { inputOf, nameOf, type Role, type SavedWork, type Source } from "./sources.js";
+import { inputOf, nameOf, type Role, type Source } from "./sources.js";
 import { Workshop } from "./workshop.js";
 
 /** The heuristics that the result is compared with. */
@@ -61,10 +70,12 @@ export class Actions {
     constructor(
         private readonly store: Store<AppState>,
         private readonly engine: Engine,
-        /** Starts a worker of its own for what can only be ended with its worker. */
+        /** Starts a worker beside the engine's. */
         startWorker: () => Promise<Worker>,
     ) {
-        this.solving = new Solving(store, engine, (error) => this.report(error));
+        this.solving = new Solving(store, engine, (error) =>
+            this.report(error, { remedy: boundaryRemedy(error, this) }),
+        );
         this.landmarks = new LandmarkEditor(store, {
             dragged: (id) => void this.solving.preview(id),
             edited: (wasSolved) => this.afterEdit(wasSolved),
@@ -73,7 +84,7 @@ export class Actions {
             store.get().live ? this.queue : this.solve(),
         );
         this.quadMesh = new QuadPreview(store, new Workshop(engine, startWorker));
-        this.map = new Mapping(store, new Workshop(engine, startWorker));
+        this.map = new Mapping(store, new Workshop(engine, startWorker, true));
         this.batch = new Batch(engine, (entries, running) => {
             const { batch } = store.get();
             if (batch) store.update({ batch: { ...batch, entries, running } });
@@ -144,14 +155,9 @@ export class Actions {
     /** Work that was put away: everything as it was; what was solved is solved again. */
     restore(saved: SavedWork): Promise<void> {
         return this.enqueue(async () => {
+            const { repair, options, quads, making, tab } = saved;
             this.startAnew(saved.origin);
-            this.store.update({
-                repair: saved.repair,
-                options: saved.options,
-                quads: saved.quads,
-                making: saved.making,
-                routes: [],
-            });
+            this.store.update({ repair, options, quads, making, tab, routes: [] });
             // Either is of use without the other.
             const isTarget = !saved.target || (await this.load("target", saved.target));
             const isLayout = !saved.layout || (await this.load("layout", saved.layout));
@@ -162,8 +168,8 @@ export class Actions {
                 this.store.update({
                     routes: saved.routes.filter((rule) => fits(rule, layout, landmarks)),
                 });
-            if (saved.second)
-                await this.map.restore(saved.second).catch((error: unknown) => this.report(error));
+            if (layout) this.quadMesh.restore(saved.quadMesh, layout);
+            await this.map.restore(saved).catch((error: unknown) => this.report(error));
             if (saved.making) await this.rebuildLayout();
             else if (saved.solved) await this.solving.run();
         });
@@ -171,23 +177,9 @@ export class Actions {
 
     /** What restore() needs to bring everything back. */
     saved(): SavedWork {
-        const { landmarks, making, quads, repair, options, origin, routes, map, result } =
-            this.store.get();
         const { layout = null, target = null } = this.sources;
-        const solved = result !== null;
-        return {
-            layout,
-            target,
-            landmarks,
-            making,
-            quads,
-            repair,
-            options,
-            origin,
-            routes,
-            second: map.other?.saved ?? null,
-            solved,
-        };
+        const second = this.store.get().map.other?.saved ?? null;
+        return { layout, target, second, ...savedRest(this.store.get()) };
     }
 
     /** Another target for the layout there is, solved. */
@@ -296,11 +288,7 @@ export class Actions {
             const contenders = [];
             for (const algorithm of heuristics) {
                 const result = await this.attempt(`Trying ${algorithmWords(algorithm)}`, () =>
-                    this.engine.solveBeside(ids, {
-                        algorithm,
-                        seed: options.seed,
-                        shape: options.shape,
-                    }),
+                    this.engine.solveBeside(ids, { ...heuristicOptions(options), algorithm }),
                 );
                 if (!result) return;
                 contenders.push({ algorithm, result });
@@ -367,6 +355,11 @@ export class Actions {
 
     setOptions(change: Partial<AppState["options"]>): void {
         this.store.update({ options: { ...this.store.get().options, ...change } });
+    }
+
+    /** What paths cost and where they have to run: an edit that can be taken back. */
+    setPathSettings(change: Partial<PathSettings>): void {
+        this.landmarks.setPathSettings(change, pathSettingWords(change));
     }
 
     /** How paths run; a result gets the shape without a new search. */
@@ -437,14 +430,14 @@ export class Actions {
     report(error: unknown, more: Partial<Problem> = {}): void {
         const code = error instanceof Error && "code" in error ? String(error.code) : "internal";
         const message = error instanceof Error ? error.message : String(error);
-        const { problems, landmarks } = this.store.get();
+        const { problems, landmarks, layout } = this.store.get();
         const problem: Problem = {
             id: ++this.problemCount,
             code,
             title: titleOf(code),
             ...causeAndAdvice(message),
             line: null,
-            place: landmarksOf(error, landmarks),
+            place: landmarksOf(error, landmarks, layout),
             about: null,
             remedy: null,
             ...more,

@@ -2,6 +2,7 @@
 import type { EmbedResult, ExportedFiles } from "layout-embedding";
 import { strToU8 } from "fflate";
 import type { Engine } from "./engine.js";
+import { solveOptions } from "./solve_options.js";
 import type { BatchEntry, BatchFigures, SolveSettings } from "./state.js";
 
 /** A landmark file's name after that of its target: "cow.txt", "cow_landmarks.txt". */
@@ -89,22 +90,14 @@ export class Batch {
     private async solve(
         { target, landmarks }: BatchEntry,
         repair: boolean,
-        { algorithm, gap, seed, shape, timeLimit, workLimit }: SolveSettings,
+        settings: SolveSettings,
         signal: AbortSignal,
     ) {
         return this.engine.solveElsewhere(
             { name: target.name, bytes: await target.arrayBuffer() },
             landmarks && { name: landmarks.name, bytes: await landmarks.arrayBuffer() },
             { repair },
-            {
-                gap,
-                seed,
-                shape,
-                signal,
-                ...(algorithm !== null && { algorithm }),
-                ...(timeLimit !== null && { timeLimit }),
-                ...(workLimit !== null && { workLimit }),
-            },
+            { ...solveOptions(settings), signal },
         );
     }
 }

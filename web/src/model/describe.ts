@@ -7,6 +7,7 @@ import type {
     PathShape,
 } from "layout-embedding";
 import { conflictsOf, edgesInConflict } from "./candidates.js";
+import type { PathSettings } from "./state.js";
 
 const numbers = new Intl.NumberFormat("en", { maximumSignificantDigits: 6 });
 const counts = new Intl.NumberFormat("en");
@@ -71,15 +72,43 @@ export const statusWords: Record<EmbedStatus, string> = {
     noneFound: "No embedding was found",
 };
 
+export const formatPercent = (share: number): string => `${Number((100 * share).toFixed(1))} %`;
+
+/** What was made of the settings of paths. */
+export function pathSettingWords({
+    featureDiscount,
+    boundaryEdges,
+}: Partial<PathSettings>): string {
+    if (featureDiscount !== undefined)
+        return featureDiscount === 0
+            ? "Sharp edges cost what all else costs."
+            : `Along sharp edges paths cost up to ${formatPercent(featureDiscount)} less.`;
+    return boundaryEdges === "follow"
+        ? "Boundary edges follow the target's boundary."
+        : "Boundary edges run where they are shortest.";
+}
+
 /** What the figures of a result mean, in plain words; `ruled`: with rules for single routes. */
-export function meaning(result: EmbedResult, ruled: boolean): string {
+export function meaning(
+    result: EmbedResult,
+    ruled: boolean,
+    { featureDiscount, boundaryEdges }: PathSettings,
+): string {
     const bound = formatLength(result.lowerBound);
+    const kept = [
+        ...(ruled ? ["rules for routes"] : []),
+        ...(boundaryEdges === "follow" ? ["boundary edges along the boundary"] : []),
+    ];
     const scope =
         result.boundScope === "embeddings"
-            ? `no embedding of this layout with these landmarks${ruled ? " and rules for routes" : ""}`
+            ? `no embedding of this layout with these landmarks${kept.map((words) => ` and ${words}`).join("")}`
             : "no embedding made by inserting one path after another";
+    const features =
+        featureDiscount > 0
+            ? `, where sharp ones count up to ${formatPercent(featureDiscount)} less`
+            : "";
     const claim =
-        `Measured along the edges of the target, each triangle cut in six, ${scope} ` +
+        `Measured along the edges of the target, each triangle cut in six${features}, ${scope} ` +
         `can be shorter than ${bound} in all`;
     if (!Number.isFinite(result.cost)) return `${claim}.`;
     if (result.gap === 0) return `${claim}: this one cannot be improved.`;
@@ -142,6 +171,7 @@ const titles: Partial<Record<string, string>> = {
     tooFewLandmarks: "There are too few landmarks",
     tooFewLandmarksForSurface: "There are too few landmarks",
     templateNotReached: "No layout could be made",
+    invalidOption: "A setting does not fit",
     memoryLimit: "There is too little memory",
     unresolvedTie: "Paths are exactly equally long",
     invalidPath: "A route to keep or avoid does not fit",

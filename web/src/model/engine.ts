@@ -15,6 +15,7 @@ import type {
     PathShape,
     SolveOptions,
     TargetInfo,
+    TargetLoadOptions,
     TemplateLayout,
     TemplateOptions,
     UncheckedMesh,
@@ -27,12 +28,12 @@ export interface Worker {
     readonly terminate: () => void;
 }
 
-/** What a solve() comes to, also where its end has to be waited for after a cancel. */
-async function bestOf(solving: Promise<EmbedResult>): Promise<EmbedResult> {
+/** What a call comes to, also where its end has to be waited for after a cancel. */
+export async function bestOf<Made>(call: Promise<Made>): Promise<Made> {
     try {
-        return await solving;
+        return await call;
     } catch (error) {
-        if (error instanceof CancelledError) return (await error.late) as EmbedResult;
+        if (error instanceof CancelledError) return (await error.late) as Made;
         throw error;
     }
 }
@@ -52,6 +53,16 @@ const fatal = new Set([
     "moduleNotLoaded",
     "disposed",
 ]);
+
+const codeOf = (error: unknown): string =>
+    error instanceof Error && "code" in error ? String(error.code) : "";
+
+/** Whether the worker that this came from is of no use any more. */
+export const isFatal = (error: unknown): boolean => fatal.has(codeOf(error));
+
+/** Whether something ended because it was ended on purpose. */
+export const isStopped = (error: unknown): boolean =>
+    error instanceof CancelledError || codeOf(error) === "disposed";
 
 /**
  * The solver as the page sees it: the package's session, started on first use, and started anew
@@ -217,8 +228,7 @@ export class Engine {
         try {
             return await call(await current);
         } catch (error) {
-            const code = error instanceof Error && "code" in error ? String(error.code) : "";
-            if (fatal.has(code) && this.running === current) {
+            if (isFatal(error) && this.running === current) {
                 this.running = this.solvedFor = null;
                 current.then(({ worker }) => worker.terminate()).catch(() => undefined);
             }
@@ -241,9 +251,15 @@ export class Engine {
     }
 
     /** Gives a session of another worker the layout and the target. */
-    async loadInto(session: EmbeddingSession): Promise<void> {
-        if (this.layout) await session.loadLayout(...this.layout);
-        if (this.target) await session.loadTarget(...this.target);
+    async loadInto(
+        session: EmbeddingSession,
+        more: TargetLoadOptions = {},
+    ): Promise<TargetInfo | null> {
+        const [layout, target] = [this.layout, this.target];
+        const { signal } = more;
+        if (layout)
+            await session.loadLayout(layout[0], { ...layout[1], ...(signal && { signal }) });
+        return target && session.loadTarget(target[0], { ...target[1], ...more });
     }
 
     /** New input makes the side session worthless; its memory goes back. */

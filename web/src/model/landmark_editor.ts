@@ -11,7 +11,7 @@ import {
     type Landmarks,
 } from "./landmarks.js";
 import { droppedWords, fits, type RouteRule } from "./routes.js";
-import type { AppState } from "./state.js";
+import type { AppState, PathSettings } from "./state.js";
 import type { Store } from "./store.js";
 
 /** Changed landmarks make everything solved before meaningless. */
@@ -38,6 +38,7 @@ interface Edited {
     readonly landmarks: Landmarks;
     readonly flipped: boolean;
     readonly routes: readonly RouteRule[];
+    readonly settings: PathSettings;
 }
 
 /** Every way to edit landmarks by hand; each edit can be taken back. */
@@ -217,6 +218,24 @@ export class LandmarkEditor {
         this.changed(wasSolved);
     }
 
+    /** Other costs of paths, or other edges along the boundary: another problem, solved anew. */
+    setPathSettings(change: Partial<PathSettings>, announcement: string): void {
+        const { result, options, landmarks, live } = this.store.get();
+        const changed = { ...options, ...change };
+        if (!landmarks) return this.store.update({ options: changed });
+        const wasSolved = this.isSolved();
+        this.history.record(this.current());
+        this.store.update({
+            ...unsolved,
+            options: changed,
+            // Shown until the new embedding is there.
+            preview: live ? result : null,
+            announcement,
+        });
+        this.adaptRoutes();
+        this.changed(wasSolved);
+    }
+
     /** Rules that the embedding there is complies with. */
     keepRoutes(routes: readonly RouteRule[], announcement: string): void {
         this.history.record(this.current());
@@ -240,14 +259,16 @@ export class LandmarkEditor {
     }
 
     private current(): Edited {
-        const { landmarks, flipped, routes } = this.store.get();
-        return { landmarks: landmarks ?? noLandmarks, flipped, routes };
+        const { landmarks, flipped, routes, options } = this.store.get();
+        const { featureDiscount, boundaryEdges } = options;
+        const settings = { featureDiscount, boundaryEdges };
+        return { landmarks: landmarks ?? noLandmarks, flipped, routes, settings };
     }
 
     private go(edited: Edited | null, announcement: string): void {
         if (!edited) return;
-        const { landmarks, flipped, routes } = edited;
-        const { making, placing, selected } = this.store.get();
+        const { landmarks, flipped, routes, settings } = edited;
+        const { making, placing, selected, options } = this.store.get();
         const goOn = making || placing !== null;
         const wasSolved = this.isSolved();
         this.store.update({
@@ -255,6 +276,7 @@ export class LandmarkEditor {
             landmarks,
             flipped,
             routes,
+            options: { ...options, ...settings },
             selected: selected?.kind === "edge" ? selected : null,
             placing: making
                 ? landmarks.places.length
@@ -273,7 +295,7 @@ export class LandmarkEditor {
         this.changed(wasSolved);
     }
 
-    /** After a landmark was moved: rules that still fit stay, without the price they had. */
+    /** In another problem: rules that still fit stay, without the price they had. */
     private adaptRoutes(): void {
         const { landmarks, layout } = this.store.get();
         this.dropRoutes(

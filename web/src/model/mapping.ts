@@ -3,12 +3,16 @@ import { loadShapes, type Shape } from "../gallery/catalogue.js";
 import { isLandmarkFile } from "./batch.js";
 import { Correspondence, otherSide, type FacePoint, type Side } from "./correspondence.js";
 import { formatLength, sentencesOf, statusWords } from "./describe.js";
+import { bestOf, isStopped } from "./engine.js";
 import { Latest } from "./latest.js";
 import type { MapState, OtherTarget, Texture } from "./maps.js";
-import type { SavedSecond } from "./sources.js";
+import type { SavedWork } from "./saved_work.js";
+import { pathOptions } from "./solve_options.js";
 import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
-import { isStopped, type Workshop } from "./workshop.js";
+import type { Embedded, Workshop } from "./workshop.js";
+
+const optimisedWords = { no: "", partly: "partly optimised ", yes: "optimised " };
 
 /**
  * Maps the target with its embedding onto a second target: at once as the patches give it, then
@@ -16,9 +20,12 @@ import { isStopped, type Workshop } from "./workshop.js";
  */
 export class Mapping {
     private readonly latest = new Latest();
-    private busy = false;
+    /** Ends the map that is being made. */
+    private making = new AbortController();
     /** The session whose reference is the embedding of the first target. */
     private prepared: EmbeddingSession | null = null;
+    /** The second target whose embedding it has. */
+    private second: { session: EmbeddingSession; other: OtherTarget } | null = null;
 
     constructor(
         private readonly store: Store<AppState>,
@@ -40,7 +47,7 @@ export class Mapping {
                 if (shown && result?.refined && map.other && map.of !== result) this.refresh();
                 else if (!result) this.stop();
                 // Nobody waits for it: its memory goes back.
-                if (!shown && !result) this.workshop.stop();
+                if (!shown && !result) this.workshop.close();
             },
         );
     }
@@ -76,21 +83,27 @@ export class Mapping {
         });
     }
 
-    /** The second target of work that was put away. */
-    async restore(saved: SavedSecond): Promise<void> {
-        if ("files" in saved) return this.chooseFiles(saved.files);
-        const shape = (await loadShapes()).find(({ id }) => id === saved.shape);
-        if (shape) this.chooseShape(shape);
+    /** The second target of work that was put away, and what was shown of the map. */
+    async restore({ second, map }: SavedWork): Promise<void> {
+        const { texture, cursor } = map;
+        if (second && "files" in second) this.chooseFiles(second.files);
+        else if (second) {
+            const shape = (await loadShapes()).find(({ id }) => id === second.shape);
+            if (shape) this.chooseShape(shape);
+        }
+        // On both targets once there is a map.
+        this.update({ texture, cursor: cursor && { ...cursor, a: null, b: null } });
     }
 
     setTexture(texture: Texture): void {
         this.update({ texture });
     }
 
-    /** Ends what is going on; a map that was made stays. */
+    /** Ends what is going on; a map that was made stays, optimised as far as it is. */
     stop(): void {
         this.latest.drop();
-        this.interrupt();
+        this.making.abort();
+        this.workshop.interrupt();
         this.update({ phase: null, progress: null });
     }
 
@@ -148,26 +161,25 @@ export class Mapping {
     }
 
     private refresh(): void {
-        this.interrupt();
+        this.making.abort();
         this.latest.do((isWanted) => this.make(isWanted));
     }
 
-    /** Nothing in the worker can be ended but with the worker. */
-    private interrupt(): void {
-        if (this.busy) this.workshop.stop();
-    }
-
     private async make(isWanted: () => boolean): Promise<void> {
-        const { result, map, tab } = this.store.get();
-        if (!result?.refined || !map.other || tab !== "map") return;
-        this.busy = true;
-        this.update({ error: null });
+        const { result, map, tab, options } = this.store.get();
+        const { other } = map;
+        if (!result?.refined || !other || tab !== "map") return;
+        const making = new AbortController();
+        this.making = making;
+        const { signal } = making;
+        this.update({ error: null, phase: "Taking over the embedding of the first target" });
         try {
-            await this.makeOf(result, map.other, isWanted);
+            await this.workshop.with(result, pathOptions(options), (embedded) =>
+                this.makeOf(result, other, embedded, isWanted, signal),
+            );
         } catch (error) {
             if (isWanted() && !isStopped(error)) this.update({ error: sentencesOf(error) });
         } finally {
-            this.busy = false;
             if (isWanted()) this.update({ phase: null, progress: null });
         }
     }
@@ -175,60 +187,84 @@ export class Mapping {
     private async makeOf(
         result: EmbedResult,
         other: OtherTarget,
+        { session, textureCoordinates }: Embedded,
         isWanted: () => boolean,
+        signal: AbortSignal,
     ): Promise<void> {
         const phase = (words: string, progress: number | null = null) => {
             if (isWanted()) this.update({ phase: words, progress });
         };
+        if (this.prepared !== session) {
+            await session.setReference();
+            this.prepared = session;
+        }
+        const { second } = this;
+        if (second?.session !== session || second.other !== other) {
+            const first = await this.firstMap(session, other, isWanted, phase, signal);
+            if (!first || !isWanted()) return;
+            this.second = { session, other };
+            this.update({ coordinates: textureCoordinates });
+            this.show(first, result, "no");
+        }
+        const before = this.store.get().map.map;
+        const optimising = "Optimising the map";
+        phase(optimising);
+        const optimised = await bestOf(
+            session.mapFromReference({
+                signal,
+                onProgress: (progress) => phase(optimising, progress),
+            }),
+        );
+        // What was stopped shows how far it came, unless something else is there by now.
+        if (isWanted()) this.show(optimised, result, "yes");
+        else if (this.store.get().map.map === before) this.show(optimised, result, "partly");
+    }
+
+    /** The map as the patches give it; null where nobody wants it any more. */
+    private async firstMap(
+        session: EmbeddingSession,
+        other: OtherTarget,
+        isWanted: () => boolean,
+        phase: (words: string, progress?: number | null) => void,
+        signal: AbortSignal,
+    ): Promise<SurfaceMap | null> {
+        this.second = null;
         phase(`Reading ${other.title}`);
         const { target, landmarks } = await other.open();
-        phase("Taking over the embedding of the first target");
-        const session = await this.referenced(result);
-        if (!isWanted()) return;
-        phase(`Reading ${other.title}`);
-        const info = await session.loadTarget(target, { repair: this.store.get().repair });
+        if (!isWanted()) return null;
+        const { repair, options } = this.store.get();
+        const info = await session.loadTarget(target, { repair, signal });
         const placed = await (landmarks
             ? session.setLandmarks(landmarks)
             : session.landmarksByProximity());
-        if (!isWanted()) return;
+        if (!isWanted()) return null;
         this.update({ target: info, landmarks: placed.landmarks });
-        const { gap, seed, workLimit } = this.store.get().options;
+        const { gap, seed, workLimit } = options;
         const embedding = `Embedding the layout into ${other.title}`;
         phase(embedding);
         const { refined, status } = await session.solve({
+            ...pathOptions(options),
             gap,
             seed,
             ...(workLimit !== null && { workLimit }),
+            doubts: false,
+            signal,
             onProgress: ({ phase: part, progress }) =>
                 phase(embedding, part === "search" ? progress : null),
         });
+        if (!isWanted()) return null;
         if (!refined)
             throw new Error(
                 `${statusWords[status]} of the layout in ${other.title}; ` +
                     "check its landmarks, or choose another target.",
             );
         phase("Mapping patch onto patch");
-        const first = await session.mapFromReference({ rounds: 0, seamPasses: 0 });
-        if (!isWanted()) return;
-        this.show(first, result, false);
-        phase("Optimising the map");
-        const optimised = await session.mapFromReference();
-        if (isWanted()) this.show(optimised, result, true);
+        return session.mapFromReference({ rounds: 0, seamPasses: 0, signal });
     }
 
-    /** A session whose reference is the embedding of the first target. */
-    private async referenced(result: EmbedResult): Promise<EmbeddingSession> {
-        const session = await this.workshop.embedded(result);
-        if (this.prepared !== session) {
-            await session.setReference();
-            this.prepared = session;
-        }
-        return session;
-    }
-
-    private show(map: SurfaceMap, of: EmbedResult, isOptimised: boolean): void {
+    private show(map: SurfaceMap, of: EmbedResult, optimised: MapState["optimised"]): void {
         const correspondence = new Correspondence(map);
-        this.update({ map, correspondence, of, isOptimised });
+        this.update({ map, correspondence, of, optimised });
         const { cursor } = this.store.get().map;
         if (cursor?.vertex !== null && cursor?.vertex !== undefined)
             this.pointAtVertex(cursor.from, cursor.vertex);
@@ -239,7 +275,7 @@ export class Mapping {
         const { meanEnergy } = map.distortion;
         this.store.update({
             announcement:
-                `The ${isOptimised ? "optimised " : ""}map is there. ` +
+                `The ${optimisedWords[optimised]}map is there. ` +
                 `Its mean energy is ${formatLength(meanEnergy)}.`,
         });
     }
@@ -249,7 +285,7 @@ export class Mapping {
             map: null,
             correspondence: null,
             of: null,
-            isOptimised: false,
+            optimised: "no",
             cursor: null,
         });
     }

@@ -20,8 +20,9 @@ export interface OtherTarget {
     }>;
 }
 
-/** What the map carries from the first target to the second. */
-export type Texture = "grid" | "checker" | "patches" | "distortion";
+/** What the map can carry from the first target to the second. */
+export const textures = ["grid", "checker", "patches", "distortion", "file"] as const;
+export type Texture = (typeof textures)[number];
 
 /** A point on both targets. */
 export interface MapCursor {
@@ -41,14 +42,18 @@ export interface MapState {
     readonly correspondence: Correspondence | null;
     /** The result whose embedding the map begins at. */
     readonly of: EmbedResult | null;
-    readonly isOptimised: boolean;
+    /** `partly`: what there was when the optimisation was stopped. */
+    readonly optimised: "no" | "partly" | "yes";
     /** What is going on, in words; null for nothing. */
     readonly phase: string | null;
     /** Share of it that is done; null while unknown. */
     readonly progress: number | null;
     /** Why there is no map. */
     readonly error: string | null;
+    /** What is wanted; see shownTexture(). */
     readonly texture: Texture;
+    /** Those of the first target, as in TargetInfo; null where it has none. */
+    readonly coordinates: Float64Array | null;
     readonly cursor: MapCursor | null;
 }
 
@@ -59,10 +64,15 @@ export const noMap: MapState = {
     map: null,
     correspondence: null,
     of: null,
-    isOptimised: false,
+    optimised: "no",
     phase: null,
     progress: null,
     error: null,
     texture: "grid",
+    coordinates: null,
     cursor: null,
 };
+
+/** What is carried: the texture that is wanted, where the first target has it. */
+export const shownTexture = ({ texture, coordinates }: MapState): Texture =>
+    texture === "file" && !coordinates ? "grid" : texture;

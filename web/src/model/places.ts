@@ -1,4 +1,4 @@
-import type { UncheckedMesh } from "layout-embedding";
+import type { LayoutInfo, UncheckedMesh } from "layout-embedding";
 import type { Landmarks } from "./landmarks.js";
 import type { Place } from "./state.js";
 
@@ -28,9 +28,21 @@ export async function meshPlace(
     return mesh && { kind: "mesh", role, name, mesh, vertices, faces };
 }
 
-/** The landmarks that an error is about, where they are on the target; null if it is about none. */
-export function landmarksOf(error: unknown, landmarks: Landmarks | null): Place | null {
-    const ids = numbers(error, "landmark", "otherLandmark").filter(
+/** The layout edge that an error is about; null if it is about none. */
+export const edgeOf = (error: unknown): number | null => numbers(error, "edge")[0] ?? null;
+
+/**
+ * The landmarks that an error is about, or those at the ends of its edge, where they are on the
+ * target; null if it is about none.
+ */
+export function landmarksOf(
+    error: unknown,
+    landmarks: Landmarks | null,
+    layout: LayoutInfo | null,
+): Place | null {
+    const edge = edgeOf(error);
+    const ends = edge === null ? [] : [...(layout?.edges.subarray(2 * edge, 2 * edge + 2) ?? [])];
+    const ids = [...numbers(error, "landmark", "otherLandmark"), ...ends].filter(
         (id) => (landmarks?.places[id] ?? null) !== null,
     );
     return ids.length > 0 ? { kind: "landmarks", ids } : null;

@@ -1,10 +1,19 @@
-import type { EmbeddingSession, EmbedResult, QuadMesh, QuadOptions } from "layout-embedding";
+import type {
+    EmbeddingSession,
+    EmbedResult,
+    LayoutInfo,
+    QuadMesh,
+    QuadOptions,
+} from "layout-embedding";
 import { sentencesOf } from "./describe.js";
+import { isStopped } from "./engine.js";
 import { Latest } from "./latest.js";
 import type { QuadState } from "./quads.js";
+import type { SavedRest } from "./saved_work.js";
+import { pathOptions } from "./solve_options.js";
 import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
-import { isStopped, type Workshop } from "./workshop.js";
+import type { Workshop } from "./workshop.js";
 
 /** Milliseconds for which settings have to stay as they are before the mesh is relaxed. */
 const calm = 350;
@@ -16,7 +25,9 @@ const calm = 350;
  */
 export class QuadPreview {
     private readonly latest = new Latest();
-    private relaxing = false;
+    /** Ends what is being made; a relaxation is ended for newer settings, too. */
+    private making = new AbortController();
+    private relaxing = new AbortController();
     /** Until the settings have rested. */
     private timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -38,7 +49,7 @@ export class QuadPreview {
                 if (shown && (quadMesh.of !== result || !quadMesh.isRelaxed)) this.refresh();
                 else if (!result) this.stop();
                 // Nobody waits for it: its memory goes back.
-                if (!shown && !result) this.workshop.stop();
+                if (!shown && !result) this.workshop.close();
             },
         );
     }
@@ -56,10 +67,18 @@ export class QuadPreview {
         this.refresh();
     }
 
-    /** Ends a relaxation; the mesh stays as it is. */
+    /** Settings that were put away; edges that the layout has not are left out. */
+    restore({ edgeLength, segments }: SavedRest["quadMesh"], { edgeCount }: LayoutInfo): void {
+        this.update({ edgeLength, segments: segments.filter(([edge]) => edge < edgeCount) });
+    }
+
+    /** Ends what is going on; the mesh stays as it is. */
     stop(): void {
         this.interrupt();
         this.latest.drop();
+        this.making.abort();
+        this.making = new AbortController();
+        this.workshop.interrupt();
         this.update({ phase: null });
     }
 
@@ -67,7 +86,8 @@ export class QuadPreview {
         this.interrupt();
         this.latest.do((isWanted) =>
             this.attempt(isWanted, "Making quads", async (result, session, options) => {
-                const rough = await session.quads({ ...options, relaxation: 0 });
+                const { signal } = this.making;
+                const rough = await session.quads({ ...options, relaxation: 0, signal });
                 // Shown also where a newer one is wanted: the slider is still moving.
                 if (this.store.get().result !== result) return;
                 this.show(rough, result, false);
@@ -79,8 +99,10 @@ export class QuadPreview {
     private relax(): void {
         this.latest.do((isWanted) =>
             this.attempt(isWanted, "Evening the quads out", async (result, session, options) => {
-                this.relaxing = true;
-                const relaxed = await session.quads(options);
+                this.relaxing = new AbortController();
+                const { signal } = this.relaxing;
+                const onProgress = (progress: number) => this.update({ progress });
+                const relaxed = await session.quads({ ...options, signal, onProgress });
                 if (isWanted()) this.show(relaxed, result, true);
             }),
         );
@@ -88,7 +110,7 @@ export class QuadPreview {
 
     private interrupt(): void {
         clearTimeout(this.timer);
-        if (this.relaxing) this.workshop.stop();
+        this.relaxing.abort();
     }
 
     private async attempt(
@@ -100,20 +122,20 @@ export class QuadPreview {
             options: QuadOptions,
         ) => Promise<void>,
     ): Promise<void> {
-        const { result, quadMesh, tab } = this.store.get();
+        const { result, quadMesh, tab, options } = this.store.get();
         if (!result?.refined || tab !== "quads") return;
         const { edgeLength, segments } = quadMesh;
-        this.update({ phase, error: null });
+        this.update({ phase, progress: null, error: null });
         try {
-            await make(result, await this.workshop.embedded(result), {
-                segments,
-                ...(edgeLength !== null && { edgeLength }),
-            });
+            // The patches as they are shown.
+            const wanted = { ...pathOptions(options), shape: options.shape };
+            await this.workshop.with(result, wanted, ({ session }) =>
+                make(result, session, { segments, ...(edgeLength !== null && { edgeLength }) }),
+            );
         } catch (error) {
             if (isWanted()) this.fail(error);
         } finally {
-            this.relaxing = false;
-            if (isWanted()) this.update({ phase: null });
+            if (isWanted()) this.update({ phase: null, progress: null });
         }
     }
 

@@ -14,6 +14,8 @@ export interface QuadState {
     readonly isRelaxed: boolean;
     /** What is going on, in words; null for nothing. */
     readonly phase: string | null;
+    /** Share of it that is done; null while unknown. */
+    readonly progress: number | null;
     /** Why there is no mesh with these settings. */
     readonly error: string | null;
 }
@@ -25,6 +27,7 @@ export const noQuads: QuadState = {
     of: null,
     isRelaxed: false,
     phase: null,
+    progress: null,
     error: null,
 };
 

@@ -1,7 +1,8 @@
 // What may help against a problem, as a button beside it.
 import { mends } from "./mending.js";
+import { edgeOf } from "./places.js";
 import { nameOf, type Role, type Source } from "./sources.js";
-import type { Problem } from "./state.js";
+import type { PathSettings, Problem } from "./state.js";
 import type { UncheckedMesh } from "layout-embedding";
 
 /** Errors that reading again with repair may get rid of. */
@@ -17,6 +18,8 @@ export interface RemedyActions {
     setRepair(repair: boolean): void;
     openAs(role: Role, source: Source): Promise<void>;
     setMaking(making: boolean): Promise<void>;
+    setPathSettings(change: Partial<PathSettings>): void;
+    solve(): Promise<void>;
     notice(text: string): void;
     /** A mesh that was refused, or null, with a problem reported. */
     mended<Result>(
@@ -62,4 +65,16 @@ export function meshRemedy(
 export const layoutRemedy = (error: unknown, actions: RemedyActions): Problem["remedy"] =>
     codeOf(error) === "topologyMismatch"
         ? { label: "Make a layout for it", apply: () => void actions.setMaking(true) }
+        : null;
+
+/** For boundary edges that cannot follow the target's boundary. */
+export const boundaryRemedy = (error: unknown, actions: RemedyActions): Problem["remedy"] =>
+    codeOf(error) === "invalidOption" && edgeOf(error) !== null
+        ? {
+              label: "Let boundary edges run freely",
+              apply: () => {
+                  actions.setPathSettings({ boundaryEdges: "free" });
+                  void actions.solve();
+              },
+          }
         : null;

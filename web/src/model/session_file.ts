@@ -1,35 +1,41 @@
 // A session as one zip file: layout and target as they were given, and session.json for the rest.
 import { strFromU8, strToU8, Unzip, UnzipInflate, unzipSync } from "fflate";
-import type { Algorithm, MeshArrays, MeshFile, PathShape } from "layout-embedding";
-import type { SavedSecond, SavedWork, Source } from "./sources.js";
-import type { Landmarks } from "./landmarks.js";
-import type { RouteRule } from "./routes.js";
-import { initialState } from "./state.js";
+import type { MeshArrays, MeshFile } from "layout-embedding";
+import {
+    checkedRest,
+    partsReader,
+    type SavedMeshes,
+    type SavedRest,
+    type SavedWork,
+} from "./saved_work.js";
+import type { SavedSecond, Source } from "./sources.js";
 
 const version = 1;
 const description = "session.json";
 
-interface SessionDocument {
-    readonly version: number;
-    readonly layout: { readonly name: string; readonly file: string } | null;
-    readonly target: { readonly name: string; readonly file: string } | null;
-    readonly landmarks: Landmarks | null;
-    readonly making: boolean;
-    readonly quads: boolean;
-    readonly repair: boolean;
-    readonly options: SavedWork["options"];
-    readonly origin: SavedWork["origin"];
-    /** Left out in sessions of earlier versions of the page. */
-    readonly routes?: readonly RouteRule[];
-    readonly second?:
-        | { readonly shape: string }
-        | { readonly files: readonly { readonly name: string; readonly file: string }[] }
-        | null;
-    readonly solved: boolean;
+/** A file in the zip, and the name it came with. */
+interface Entry {
+    readonly name: string;
+    readonly file: string;
 }
 
+/** Where the meshes lie in the zip. */
+type Entries = {
+    readonly [Role in "layout" | "target"]: Entry | null;
+} & {
+    /** Left out in sessions of earlier versions of the page, like parts of SavedRest. */
+    readonly second?: { readonly shape: string } | { readonly files: readonly Entry[] } | null;
+};
+
+type SessionDocument = { readonly version: number } & Entries & SavedRest;
+
 /** The files of a session, by name. */
-export async function packSession(work: SavedWork): Promise<Record<string, Uint8Array>> {
+export async function packSession({
+    layout,
+    target,
+    second,
+    ...rest
+}: SavedWork): Promise<Record<string, Uint8Array>> {
     const files: Record<string, Uint8Array> = {};
     const pack = async (role: string, source: Source | null) => {
         if (!source) return null;
@@ -40,7 +46,6 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         return { name, file };
     };
     const packSecond = async () => {
-        const { second } = work;
         if (!second || "shape" in second) return second;
         const packed = [];
         for (const [place, file] of second.files.entries()) {
@@ -49,20 +54,12 @@ export async function packSession(work: SavedWork): Promise<Record<string, Uint8
         }
         return { files: packed };
     };
-    const { landmarks, making, quads, repair, options, origin, routes, solved } = work;
     const document: SessionDocument = {
         version,
-        layout: await pack("layout", work.layout),
-        target: await pack("target", work.target),
-        landmarks,
-        making,
-        quads,
-        repair,
-        options,
-        origin,
-        routes,
+        layout: await pack("layout", layout),
+        target: await pack("target", target),
         second: await packSecond(),
-        solved,
+        ...rest,
     };
     return { [description]: strToU8(JSON.stringify(document, null, 1)), ...files };
 }
@@ -85,15 +82,7 @@ export function unpackSession(name: string, bytes: Uint8Array): UnpackedSession 
     if (Object.keys(files).length === 0) throw broken("it cannot be unpacked");
     const lost: string[] = [];
     const document = documentIn(files, broken, lost);
-    /** A part, or `otherwise` where it is damaged. */
-    const part = <T>(what: string, otherwise: T, read: () => T): T => {
-        try {
-            return read();
-        } catch {
-            lost.push(what);
-            return otherwise;
-        }
-    };
+    const part = partsReader(lost);
     const unpack = (role: "layout" | "target"): MeshFile | null =>
         part(`the ${role}`, null, () => {
             const entry = document[role];
@@ -101,26 +90,24 @@ export function unpackSession(name: string, bytes: Uint8Array): UnpackedSession 
             const content = contentOf(files, entry.file);
             return { name: String(entry.name), bytes: content, ...formatOf(entry) };
         });
-    const target = unpack("target");
-    const layout = unpack("layout");
+    const meshes: SavedMeshes = {
+        target: unpack("target"),
+        layout: unpack("layout"),
+        second: part("the second target", null, () => secondIn(document.second, files)),
+    };
+    const { target, layout } = meshes;
     if (!target && !layout) throw broken("there is no mesh in it that could be read");
-    const landmarks = part("the landmarks", null, () => checkedLandmarks(document.landmarks));
+    const rest = checkedRest(document, part);
+    const { landmarks, making, origin, solved } = rest;
     const work: SavedWork = {
-        layout,
-        target,
+        ...meshes,
+        ...rest,
         // Ids mean nothing without their mesh.
         landmarks: target ? landmarks : null,
         // Landmarks without their layout can still have one made of them.
-        making: document.making === true || (!layout && landmarks !== null),
-        quads: document.quads !== false,
-        repair: document.repair === true,
-        options: part("the settings", initialState.options, () =>
-            checkedSettings(document.options),
-        ),
-        origin: lost.length === 0 ? checkedOrigin(document.origin) : null,
-        routes: part("the rules for routes", [], () => checkedRoutes(document.routes)),
-        second: part("the second target", null, () => secondIn(document.second, files)),
-        solved: document.solved === true && layout !== null && target !== null,
+        making: making || (!layout && landmarks !== null),
+        origin: lost.length === 0 ? origin : null,
+        solved: solved && layout !== null && target !== null,
     };
     return { work, lost };
 }
@@ -196,7 +183,7 @@ function contentOf(files: Record<string, Uint8Array>, name: string): Uint8Array<
 }
 
 function secondIn(
-    second: SessionDocument["second"],
+    second: Entries["second"],
     files: Record<string, Uint8Array>,
 ): SavedSecond | null {
     if (!second) return null;
@@ -209,73 +196,6 @@ function secondIn(
 /** Names may have no ending, or another one than the format the mesh was packed in. */
 const formatOf = ({ file, name }: { file: string; name: string }): Pick<MeshFile, "format"> =>
     file.endsWith(".obj") && !/\.obj$/i.test(name) ? { format: "obj" } : {};
-
-function checkedLandmarks(landmarks: Landmarks | null | undefined): Landmarks | null {
-    if (!landmarks) return null;
-    const { places, names, source } = landmarks;
-    const valid =
-        Array.isArray(places) &&
-        Array.isArray(names) &&
-        places.length === names.length &&
-        places.every((v) => v === null || (Number.isSafeInteger(v) && v >= 0)) &&
-        names.every((text) => typeof text === "string");
-    if (!valid) throw new Error("these are no landmarks");
-    return { places, names, source: String(source) };
-}
-
-function checkedSettings(settings: SessionDocument["options"] | undefined): SavedWork["options"] {
-    const { algorithm, gap, timeLimit, workLimit, seed, shape } = {
-        ...initialState.options,
-        ...settings,
-    };
-    const isAmount = (value: unknown) =>
-        value === null || (typeof value === "number" && value >= 0);
-    const valid =
-        (algorithm === null || isOneOf(algorithms, algorithm)) &&
-        isOneOf(shapes, shape) &&
-        [gap, timeLimit, workLimit].every(isAmount) &&
-        gap !== null &&
-        gap <= 1 &&
-        isId(seed);
-    if (!valid) throw new Error("these are no settings");
-    return { algorithm, gap, timeLimit, workLimit, seed, shape };
-}
-
-function checkedOrigin(origin: SavedWork["origin"] | undefined): SavedWork["origin"] {
-    const { kind, name } = origin ?? {};
-    return (kind === "example" || kind === "shape") && typeof name === "string"
-        ? { kind, name }
-        : null;
-}
-
-function checkedRoutes(routes: readonly RouteRule[] | undefined): readonly RouteRule[] {
-    if (routes === undefined) return [];
-    if (!isList(routes) || !routes.every(isRoute)) throw new Error("these are no rules");
-    return routes;
-}
-
-const algorithms: readonly Algorithm[] = [
-    "greedy",
-    "praun",
-    "kraevoy",
-    "schreiner",
-    "branch-and-bound",
-    "exact",
-];
-const shapes: readonly PathShape[] = ["even", "short", "fair"];
-const isOneOf = (list: readonly string[], value: string) => list.includes(value);
-const isList = (value: unknown): boolean => Array.isArray(value);
-const isId = (value: unknown) => Number.isSafeInteger(value) && (value as number) >= 0;
-const isPoint = (point: readonly unknown[]) =>
-    isList(point) && point.length > 0 && point.length < 4 && point.every(isId);
-
-const isRoute = ({ rule, edge, path, edgeCost, costBefore }: Partial<RouteRule>): boolean =>
-    (rule === "keep" || rule === "avoid") &&
-    isId(edge) &&
-    isList(path) &&
-    (path ?? []).every(isPoint) &&
-    typeof edgeCost === "number" &&
-    (costBefore === null || typeof costBefore === "number");
 
 async function bytesOf(source: Source): Promise<Uint8Array> {
     if (source instanceof File) return new Uint8Array(await source.arrayBuffer());

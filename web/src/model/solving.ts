@@ -3,6 +3,7 @@ import { improvingWords, phaseWords } from "./describe.js";
 import type { Engine } from "./engine.js";
 import { unsolved } from "./landmark_editor.js";
 import { completeIds } from "./landmarks.js";
+import { heuristicOptions, solveOptions } from "./solve_options.js";
 import { startedActivity, type AppState } from "./state.js";
 import type { Store } from "./store.js";
 import { TraceRecorder } from "./trace.js";
@@ -58,12 +59,10 @@ export class Solving {
     }
 
     private async greedyBeside(ids: Uint32Array): Promise<Pick<AppState, "preview" | "follow">> {
-        const { seed, shape } = this.store.get().options;
         const preview = await this.engine.solveBeside(ids, {
+            ...heuristicOptions(this.store.get().options),
             algorithm: "greedy",
             timeLimit: previewSeconds,
-            seed,
-            shape,
         });
         return { preview, follow: null };
     }
@@ -95,15 +94,8 @@ export class Solving {
         };
         try {
             await this.engine.useLandmarks(ids);
-            const { algorithm, gap, seed, shape, timeLimit, workLimit } = options;
             const result = await this.engine.solve({
-                gap,
-                seed,
-                shape,
-                ...(algorithm !== null && routes.length === 0 && { algorithm }),
-                ...(timeLimit !== null && { timeLimit }),
-                ...(workLimit !== null && { workLimit }),
-                constraints: routes.map(({ rule, edge, path }) => ({ rule, edge, path })),
+                ...solveOptions(options, routes),
                 signal: abort.signal,
                 onProgress: (progress) => {
                     recorder.add(progress);

@@ -1,5 +1,6 @@
 import type {
     Algorithm,
+    BoundaryEdges,
     BoundScope,
     CandidatePaths,
     DraggedPaths,
@@ -17,7 +18,18 @@ import { noQuads, type QuadState } from "./quads.js";
 import type { RouteRule } from "./routes.js";
 import type { Trace } from "./trace.js";
 
-export interface SolveSettings {
+/** What makes another problem of the same meshes and landmarks: edits, which can be taken back. */
+export interface PathSettings {
+    /** How much less it costs to go along sharp edges of the target, up to `largestDiscount`. */
+    readonly featureDiscount: number;
+    /** Whether layout boundary edges run along the target's boundary where they can. */
+    readonly boundaryEdges: BoundaryEdges;
+}
+
+export const largestDiscount = 0.95;
+export const boundaryEdgesNames: readonly BoundaryEdges[] = ["free", "follow"];
+
+export interface SolveSettings extends PathSettings {
     /** Null for the package's default. */
     readonly algorithm: Algorithm | null;
     /** (cost - lower bound) / cost at which the search may stop. */
@@ -141,7 +153,8 @@ export interface Origin {
 }
 
 /** What the panel is about, and the target's view with it. */
-export type Tab = "embedding" | "quads" | "map";
+export const tabs = ["embedding", "quads", "map"] as const;
+export type Tab = (typeof tabs)[number];
 
 export type Theme = "system" | "light" | "dark";
 
@@ -253,6 +266,8 @@ export const initialState: AppState = {
         workLimit: null,
         seed: 1,
         shape: "short",
+        featureDiscount: 0,
+        boundaryEdges: "free",
     },
     repair: false,
     activity: null,

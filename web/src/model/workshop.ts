@@ -1,62 +1,116 @@
-import type { EmbeddingSession, EmbedResult } from "layout-embedding";
-import type { Engine, Worker } from "./engine.js";
+import type { EmbeddingSession, EmbedResult, SolveOptions } from "layout-embedding";
+import { CancelledError } from "layout-embedding/worker";
+import { isFatal, isStopped, type Engine, type Worker } from "./engine.js";
 
-interface Open {
-    readonly worker: Promise<Worker>;
-    /** Of which result the session has the embedding. */
-    result: EmbedResult | null;
-    session: Promise<EmbeddingSession> | null;
+/** A session with the embedding of a result. */
+export interface Embedded {
+    readonly session: EmbeddingSession;
+    /** As in TargetInfo. */
+    readonly textureCoordinates: Float64Array | null;
 }
 
-/**
- * A worker apart from the engine's, for work in one long step: that can only be ended with its
- * worker, and nothing that the page shows is lost with this one.
- */
+interface Open {
+    readonly result: EmbedResult;
+    readonly embedded: Promise<Embedded>;
+    readonly abort: AbortController;
+}
+
+/** A worker apart from the engine's: for long work beside what the page shows. */
 export class Workshop {
+    private worker: Promise<Worker> | null = null;
     private open: Open | null = null;
 
     constructor(
         private readonly engine: Engine,
         private readonly start: () => Promise<Worker>,
+        /** Whether texture coordinates of the target are of use. */
+        private readonly textured = false,
     ) {}
 
-    /** A session that has the embedding of the engine's problem with the routes of `result`. */
-    embedded(result: EmbedResult): Promise<EmbeddingSession> {
-        const open = (this.open ??= { worker: this.start(), result: null, session: null });
-        if (open.result === result && open.session) return open.session;
-        const before = open.session;
-        open.result = result;
-        open.session = open.worker.then(async (worker) => {
-            await before?.then((session) => session.dispose()).catch(() => undefined);
-            const session = await worker.createSession();
-            await this.engine.loadInto(session);
+    /**
+     * Has `work` done with a session that has the embedding of the engine's problem with the routes
+     * of `result`, which was found with `options`.
+     */
+    async with<Made>(
+        result: EmbedResult,
+        options: SolveOptions,
+        work: (embedded: Embedded) => Promise<Made>,
+    ): Promise<Made> {
+        if (this.open?.result !== result) {
+            this.close();
+            this.open = this.opened(result, options);
+        }
+        const { open } = this;
+        let embedded: Embedded | null = null;
+        try {
+            embedded = await open.embedded;
+            return await work(embedded);
+        } catch (error) {
+            // Whoever failed does not stand in the way of the next attempt.
+            if (!embedded && this.open === open) this.open = null;
+            if (isFatal(error) && !isStopped(error)) this.replaceWorker();
+            throw error;
+        }
+    }
+
+    /** Ends an embedding that is being made; the next one who needs it has it made again. */
+    interrupt(): void {
+        this.open?.abort.abort();
+    }
+
+    /** Gives memory back. */
+    close(): void {
+        const { open } = this;
+        this.open = null;
+        open?.abort.abort();
+        open?.embedded
+            .then(({ session }) => session.dispose())
+            // One that failed has been disposed of.
+            .catch(() => undefined);
+    }
+
+    private opened(result: EmbedResult, options: SolveOptions): Open {
+        const abort = new AbortController();
+        this.worker ??= this.start();
+        return { result, abort, embedded: this.embed(this.worker, result, options, abort.signal) };
+    }
+
+    private async embed(
+        worker: Promise<Worker>,
+        result: EmbedResult,
+        options: SolveOptions,
+        signal: AbortSignal,
+    ): Promise<Embedded> {
+        const session = await (await worker).createSession();
+        try {
+            const target = await this.engine.loadInto(session, {
+                textureCoordinates: this.textured,
+                signal,
+            });
             await session.setLandmarks(result.landmarks, { numbering: "loaded" });
-            await session.solve({
+            const { refined } = await session.solve({
+                ...options,
                 // All embeddings with these routes cost the same: the first one does.
                 gap: 1,
+                doubts: false,
                 constraints: result.edges.map(({ id, weakPath }) => ({
                     rule: "keep",
                     edge: id,
                     path: weakPath,
                 })),
+                signal,
             });
-            return session;
-        });
-        // Whoever failed does not stand in the way of the next attempt.
-        open.session.catch(() => {
-            if (this.open === open) this.stop();
-        });
-        return open.session;
+            // Aborted so early that there is nothing yet.
+            if (!refined) throw new CancelledError();
+            return { session, textureCoordinates: target?.textureCoordinates ?? null };
+        } catch (error) {
+            await session.dispose().catch(() => undefined);
+            throw error;
+        }
     }
 
-    /** Ends what is going on: its promise is rejected with workerTerminated. */
-    stop(): void {
-        const { open } = this;
-        this.open = null;
-        open?.worker.then((worker) => worker.terminate()).catch(() => undefined);
+    private replaceWorker(): void {
+        this.worker?.then((worker) => worker.terminate()).catch(() => undefined);
+        this.worker = this.open = null;
     }
 }
-
-/** Whether something ended because its worker was ended on purpose. */
-export const isStopped = (error: unknown): boolean =>
-    error instanceof Error && "code" in error && error.code === "workerTerminated";

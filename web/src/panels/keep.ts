@@ -1,7 +1,7 @@
 import type { Actions } from "../model/actions.js";
+import { checkedRest, partsReader, type SavedMeshes, type SavedRest } from "../model/saved_work.js";
 import { unpackSession } from "../model/session_file.js";
-import type { SavedWork } from "../model/sources.js";
-import type { AppState } from "../model/state.js";
+import type { AppState, Origin } from "../model/state.js";
 import type { Store } from "../model/store.js";
 
 const databaseName = "layout-embedding";
@@ -11,9 +11,6 @@ const meshSlot = "meshes";
 const slot = "last";
 /** Milliseconds without a change after which the work is put away. */
 const calm = 500;
-
-type Meshes = Pick<SavedWork, "layout" | "target" | "second">;
-type Rest = Omit<SavedWork, keyof Meshes>;
 
 /** Session files, and the copy of the last work in this browser. */
 export interface Keep {
@@ -28,13 +25,21 @@ export interface Keep {
 export function keepWork(store: Store<AppState>, actions: Actions): Keep {
     const shelves = new Shelves();
     let timer: ReturnType<typeof setTimeout> | undefined;
-    let kept: Meshes | null = null;
+    let kept: SavedMeshes | null = null;
+    /** Where work that was put away came from: it was changed, whatever undo can tell. */
+    let restored: Origin | null = null;
+    /** Examples and shapes that nobody changed are not worth keeping. */
+    const isWorth = ({ origin, undoable, map, quadMesh }: AppState) =>
+        !origin ||
+        origin === restored ||
+        undoable ||
+        map.other !== null ||
+        quadMesh.edgeLength !== null ||
+        quadMesh.segments.length > 0;
     const put = () => {
         clearTimeout(timer);
         timer = undefined;
-        // Examples and shapes that nobody changed are not worth keeping.
-        const { origin, undoable } = store.get();
-        if (origin && !undoable) {
+        if (!isWorth(store.get())) {
             kept = null;
             shelves.put({ [slot]: null, [meshSlot]: null });
             return;
@@ -52,6 +57,7 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
                 const bytes = new Uint8Array(await session.arrayBuffer());
                 const { work, lost } = unpackSession(session.name, bytes);
                 await actions.restore(work);
+                restored = store.get().origin;
                 if (lost.length > 0)
                     actions.notice(`${session.name} is damaged; lost are ${lost.join(", ")}.`);
             } catch (error) {
@@ -60,13 +66,15 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
         },
         async restore() {
             const [rest, meshes] = await Promise.all([
-                shelves.get<Rest>(slot),
-                shelves.get<Meshes>(meshSlot),
+                shelves.get<Partial<SavedRest>>(slot),
+                shelves.get<Partial<SavedMeshes>>(meshSlot),
             ]);
             if (!rest || !meshes?.target) return false;
             // An earlier version of the page put less away.
-            const [routes, second] = [rest.routes ?? [], meshes.second ?? null];
-            await actions.restore({ ...rest, ...meshes, routes, second });
+            const { target, layout = null, second = null } = meshes;
+            const known = checkedRest(rest, partsReader([]));
+            await actions.restore({ ...known, target, layout, second });
+            restored = store.get().origin;
             actions.notice("This is what was open at your last visit. The gallery has examples.");
             return store.get().target !== null;
         },
@@ -80,6 +88,11 @@ export function keepWork(store: Store<AppState>, actions: Actions): Keep {
                     state.making,
                     state.routes,
                     state.map.other,
+                    state.map.texture,
+                    state.map.cursor?.vertex,
+                    state.quadMesh.edgeLength,
+                    state.quadMesh.segments,
+                    state.tab,
                     state.result !== null,
                 ],
                 () => {

@@ -4,7 +4,7 @@ import { loadShapes } from "../gallery/catalogue.js";
 import type { Actions } from "../model/actions.js";
 import { nearestVertex, placeOf, type FacePoint } from "../model/correspondence.js";
 import { formatCount, formatFigure } from "../model/describe.js";
-import type { MapState, Texture } from "../model/maps.js";
+import { shownTexture, textures, type MapState, type Texture } from "../model/maps.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { create, download, element, figureRows, setText } from "./dom.js";
@@ -16,12 +16,14 @@ const textureNames: Record<Texture, string> = {
     checker: "Checkers",
     patches: "Patches",
     distortion: "Distortion",
+    file: "Texture coordinates of the file",
 };
 
 const textureTexts: Record<Texture, string> = {
     grid: "By the place on the first target: what has the same colour corresponds.",
     checker: "Cells around the first target: squares there show what the map does to them.",
     patches: "The layout's faces; the optimised map moves their borders.",
+    file: "Checkers in the texture coordinates of the first target's file, which go along with the overlays.",
     distortion: "From light (as it is) to dark (an energy of 64 and more).",
 };
 
@@ -49,10 +51,10 @@ export function mapPanel(
     points(store, actions);
     files(store, actions);
     store.watch(
-        (state) => [state.map.map, state.map.isOptimised],
-        (map, isOptimised) => {
+        (state) => [state.map.map, state.map.optimised],
+        (map, optimised) => {
             element("map-figures", HTMLElement).replaceChildren(
-                ...figureRows(map ? figuresOf(map, isOptimised) : []),
+                ...figureRows(map ? figuresOf(map, optimised !== "no") : []),
             );
         },
     );
@@ -98,15 +100,16 @@ function shapesOfTheClass(store: Store<AppState>, actions: Actions): void {
 
 function textureChoice(store: Store<AppState>, actions: Actions): void {
     const select = element("texture", HTMLSelectElement);
-    const names = Object.keys(textureNames) as Texture[];
-    select.append(...names.map((name) => new Option(textureNames[name], name)));
+    select.append(...textures.map((name) => new Option(textureNames[name], name)));
     select.addEventListener("change", () => {
-        const chosen = names.find((name) => name === select.value);
+        const chosen = textures.find((name) => name === select.value);
         if (chosen) actions.map.setTexture(chosen);
     });
     store.watch(
-        (state) => [state.map.texture],
-        (texture) => {
+        (state) => [shownTexture(state.map), state.map.coordinates !== null],
+        (texture, hasCoordinates) => {
+            const own = select.querySelector<HTMLOptionElement>("option[value=file]")!;
+            own.hidden = own.disabled = !hasCoordinates;
             select.value = texture;
             setText("texture-text", textureTexts[texture]);
         },
@@ -133,18 +136,21 @@ function progressOf(store: Store<AppState>, actions: Actions): void {
             running.hidden = map.phase === null;
             if (map.progress === null) bar.removeAttribute("value");
             else bar.value = map.progress;
-            again.hidden = !result?.refined || !map.other || map.phase !== null || map.isOptimised;
+            again.hidden =
+                !result?.refined || !map.other || map.phase !== null || map.optimised === "yes";
         },
     );
 }
 
-function stateWords({ other, map, phase, error, isOptimised }: MapState): string {
+const optimisedWords = { no: "not optimised", partly: "partly optimised", yes: "optimised" };
+
+function stateWords({ other, map, phase, error, optimised }: MapState): string {
     if (error) return error;
     if (phase) return `${phase} …`;
     if (!other) return "";
     if (!map) return `Stopped before there was a map to ${other.title}.`;
     const size = formatCount(map.overlay.patches.length, "common triangle");
-    return `Mapped to ${other.title}${isOptimised ? ", optimised" : ", not optimised"}: ${size}.`;
+    return `Mapped to ${other.title}, ${optimisedWords[optimised]}: ${size}.`;
 }
 
 function figuresOf(map: SurfaceMap, isOptimised: boolean): [string, string][] {
@@ -196,9 +202,9 @@ function files(store: Store<AppState>, actions: Actions): void {
     ];
     for (const button of buttons)
         button.addEventListener("click", () => {
-            const { map } = store.get().map;
+            const { map, coordinates } = store.get().map;
             if (!map) return;
-            const all: Readonly<Record<string, Uint8Array>> = mapFiles(map);
+            const all: Readonly<Record<string, Uint8Array>> = mapFiles(map, coordinates);
             const name = button.dataset["mapFile"];
             const bytes = name === undefined ? undefined : all[name];
             if (name !== undefined && bytes) download(name, new Blob([new Uint8Array(bytes)]));

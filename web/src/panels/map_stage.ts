@@ -2,6 +2,7 @@ import type { Actions } from "../model/actions.js";
 import type { FacePoint, Side } from "../model/correspondence.js";
 import { formatCount } from "../model/describe.js";
 import { placedLandmarks } from "../model/landmarks.js";
+import { shownTexture } from "../model/maps.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { carriedColors } from "../view3d/carried_surface.js";
@@ -68,17 +69,21 @@ export function mapStage(
     const draw = () => {
         const state = store.get();
         const map = shownMap(state);
-        const { texture } = state.map;
+        const texture = shownTexture(state.map);
         if (!map || !state.layout) {
             second?.setSurface(null, null);
             return;
         }
-        const colors = carriedColors(map, state.layout, texture);
-        first.setCarried(map, "a", colors, texture);
-        second?.setCarried(map, "b", colors, texture);
+        const carried = {
+            texture,
+            colors: carriedColors(map, state.layout, texture),
+            coordinates: state.map.coordinates,
+        };
+        first.setCarried(map, "a", carried);
+        second?.setCarried(map, "b", carried);
     };
     // After the first view has drawn what it shows without a map.
-    store.watch((state) => [shownMap(state), state.map.texture, state.target], draw);
+    store.watch((state) => [shownMap(state), shownTexture(state.map), state.target], draw);
     store.watch(
         (state) => [state.tab === "map" ? state.map.cursor : null],
         (cursor) => {

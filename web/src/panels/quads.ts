@@ -35,6 +35,7 @@ export function quadsPanel(store: Store<AppState>, actions: Actions): void {
         actions.quadMesh.stop();
         density.focus();
     });
+    const bar = element("quads-progress", HTMLProgressElement);
     const save = element("quads-obj", HTMLButtonElement);
     save.addEventListener("click", () => {
         const { mesh } = store.get().quadMesh;
@@ -47,6 +48,8 @@ export function quadsPanel(store: Store<AppState>, actions: Actions): void {
             const missing = "Quads need an embedding: solve first.";
             setText("quads-status", tabWords(store.get(), stateWords(quads), missing));
             element("quads-running", HTMLElement).hidden = quads.phase === null;
+            if (quads.progress === null) bar.removeAttribute("value");
+            else bar.value = quads.progress;
             save.disabled = !quads.mesh;
         },
     );

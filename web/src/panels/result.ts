@@ -39,7 +39,7 @@ export function resultPanel(store: Store<AppState>, actions: Actions): void {
             setText(
                 "meaning",
                 result
-                    ? meaning(result, ruled)
+                    ? meaning(result, ruled, store.get().options)
                     : (shown ?? quick)
                       ? "Quick, while the landmark moves; the shortest is looked for when it rests."
                       : "",

@@ -1,19 +1,14 @@
-import type { Algorithm } from "layout-embedding";
+import { algorithmNames } from "layout-embedding/worker";
 import type { Actions } from "../model/actions.js";
 import { algorithmWords, formatSeconds, statusWords } from "../model/describe.js";
+import { needsExact } from "../model/solve_options.js";
 import { completeIds, countPlaced } from "../model/landmarks.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { element, setText } from "./dom.js";
 
-const algorithms: readonly Algorithm[] = [
-    "exact",
-    "branch-and-bound",
-    "greedy",
-    "praun",
-    "kraevoy",
-    "schreiner",
-];
+/** The best first. */
+const algorithms = [...algorithmNames].reverse();
 
 /** Options, the button that solves and cancels, progress. */
 export function solvePanel(store: Store<AppState>, actions: Actions): void {
@@ -127,8 +122,13 @@ function optionInputs(store: Store<AppState>, actions: Actions): void {
         if (value !== null) actions.setOptions({ seed: value });
     });
     store.watch(
-        (state) => [state.options],
-        (options) => {
+        (state) => [state.options, state.routes],
+        (options, routes) => {
+            const overruled =
+                options.algorithm !== null &&
+                options.algorithm !== "exact" &&
+                needsExact(options, routes);
+            element("algorithm-note", HTMLElement).hidden = !overruled;
             algorithm.value = options.algorithm ?? "";
             gap.value = String(Number((100 * options.gap).toPrecision(12)));
             timeLimit.value = options.timeLimit === null ? "" : String(options.timeLimit);

@@ -26,7 +26,8 @@ import { selectionCard } from "./selection.js";
 import { onThemeChange } from "./theme.js";
 import { viewKeys } from "./view_keys.js";
 
-const pathShapes: readonly PathShape[] = ["short", "even", "fair"];
+/** In the order in which they are offered. */
+const pathShapes = Object.keys(shapeWords) as PathShape[];
 
 /** What shortcuts do in the views. */
 export interface Stage {

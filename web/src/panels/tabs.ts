@@ -1,9 +1,7 @@
 import type { Actions } from "../model/actions.js";
-import type { AppState, Tab } from "../model/state.js";
+import { tabs, type AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { element } from "./dom.js";
-
-const tabs: readonly Tab[] = ["embedding", "quads", "map"];
 
 /** What a tab has to say: its own words, or what it waits for while there is no embedding. */
 export function tabWords({ result, activity }: AppState, own: string, missing: string): string {

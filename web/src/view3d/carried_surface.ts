@@ -18,6 +18,15 @@ import { triangleEnergies } from "./distortion.js";
 const scale = ["#f4f1e4", "#f6c667", "#e8743b", "#a51e4d", "#3a0f4f"].map((hex) => new Color(hex));
 const largestOctave = 4;
 
+/** What is drawn. */
+export interface Carried {
+    readonly texture: Texture;
+    /** Three times three numbers per triangle of the overlay; white where the material has the colour. */
+    readonly colors: Float32Array;
+    /** Of the first target, as in TargetInfo; null where it has none. */
+    readonly coordinates: Float64Array | null;
+}
+
 /**
  * The overlay on one side. Corners are not shared: triangles have colours of their own, and the
  * shading of the target they lie in, whose normals are given per vertex.
@@ -27,7 +36,7 @@ export function carriedSurface(
     side: Side,
     target: TargetInfo,
     normals: Float32Array,
-    colors: Float32Array,
+    { colors, texture, coordinates }: Carried,
 ): BufferGeometry {
     const { overlay } = map;
     const { corners } = overlay;
@@ -53,16 +62,31 @@ export function carriedSurface(
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(position, 3));
     geometry.setAttribute("normal", new BufferAttribute(normal, 3));
-    geometry.setAttribute("origin", new BufferAttribute(origin, 3));
+    const flat = texture === "file" && coordinates ? flatOrigin(map, coordinates) : null;
+    geometry.setAttribute("origin", new BufferAttribute(flat ?? origin, 3));
     geometry.setAttribute("color", new BufferAttribute(colors, 3));
     return geometry;
 }
 
-/** Three times three numbers per triangle of the overlay; white where the material has the colour. */
+/** Texture coordinates of the first target at all corners of the overlay; the third number is 0. */
+function flatOrigin({ overlay }: SurfaceMap, coordinates: Float64Array): Float32Array<ArrayBuffer> {
+    const { corners, referenceFaces, referenceWeights } = overlay;
+    const flat = new Float32Array(3 * corners.length);
+    for (let i = 0; i < corners.length; ++i) {
+        const face = referenceFaces[Math.floor(i / 3)]!;
+        for (let k = 0; k < 3; ++k)
+            for (let axis = 0; axis < 2; ++axis)
+                flat[3 * i + axis]! +=
+                    referenceWeights[3 * i + k]! * coordinates[6 * face + 2 * k + axis]!;
+    }
+    return flat;
+}
+
+/** As in Carried. */
 export function carriedColors(map: SurfaceMap, layout: LayoutInfo, texture: Texture): Float32Array {
     const { patches } = map.overlay;
     const colors = new Float32Array(9 * patches.length).fill(1);
-    if (texture === "grid" || texture === "checker") return colors;
+    if (texture !== "patches" && texture !== "distortion") return colors;
     const fills = texture === "patches" ? patchColors(layout) : null;
     const energies = fills ? null : triangleEnergies(map);
     const color = new Color();
@@ -80,7 +104,19 @@ function shade(energy: number, into: Color): void {
     into.lerpColors(scale[step]!, scale[step + 1]!, octaves - step);
 }
 
-/** A material that draws a pattern in the space around the first target, by where points come from. */
+/** As the fragment shader counts them. */
+const patterns: Record<Texture, number> = {
+    patches: 0,
+    distortion: 0,
+    grid: 1,
+    checker: 2,
+    file: 3,
+};
+
+/**
+ * A material that draws a pattern by where points come from: in the space around the first target, or
+ * in its texture coordinates.
+ */
 export function carriedMaterial(): { material: MeshLambertMaterial; setTexture(t: Texture): void } {
     const pattern = { value: 0 };
     const material = new MeshLambertMaterial({
@@ -109,7 +145,7 @@ export function carriedMaterial(): { material: MeshLambertMaterial; setTexture(t
     return {
         material,
         setTexture: (texture) => {
-            pattern.value = texture === "grid" ? 1 : texture === "checker" ? 2 : 0;
+            pattern.value = patterns[texture];
         },
     };
 }
@@ -119,6 +155,15 @@ const patternFunctions = `
 uniform float pattern;
 varying vec3 vOrigin;
 vec3 patternAt(vec3 origin) {
+  if (pattern > 2.5) {
+    // Squares, 16 to the unit, with the place in the texture as their colour.
+    vec2 square = 16.0 * origin.xy;
+    vec2 soft = max(fwidth(square), vec2(1e-4));
+    vec2 wave = abs(fract(0.5 * square) - 0.5) - 0.25;
+    vec2 flip = clamp(wave * 2.0 / soft, -1.0, 1.0);
+    vec3 shade = vec3(0.25 + 0.6 * fract(origin.xy), 0.45);
+    return shade * (0.75 + 0.25 * flip.x * flip.y);
+  }
   mat3 turn = mat3(0.82, 0.41, -0.40, -0.53, 0.80, -0.27, 0.21, 0.43, 0.88);
   vec3 cell = 5.0 * (turn * origin);
   vec3 width = max(fwidth(cell), vec3(1e-4));

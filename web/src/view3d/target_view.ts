@@ -9,8 +9,7 @@ import type {
 } from "layout-embedding";
 import { placeOf, type FacePoint, type Side } from "../model/correspondence.js";
 import type { Landmarks } from "../model/landmarks.js";
-import type { Texture } from "../model/maps.js";
-import { carriedMaterial, carriedSurface } from "./carried_surface.js";
+import { carriedMaterial, carriedSurface, type Carried } from "./carried_surface.js";
 import { currentTheme, patchColors } from "./colors.js";
 import { Dots, type Dot } from "./dots.js";
 import { PatchFinder, patchSurface, plainSurface, trianglesOf, vertexNormals } from "./geometry.js";
@@ -125,11 +124,11 @@ export class TargetView extends MeshView {
     }
 
     /** Shows what a map carries, in place of patches: on the target of one side of the map. */
-    setCarried(map: SurfaceMap, side: Side, colors: Float32Array, texture: Texture): void {
+    setCarried(map: SurfaceMap, side: Side, carried: Carried): void {
         if (!this.target) return;
         this.lines.setMesh(null, 0);
-        this.setSurfaceGeometry(carriedSurface(map, side, this.target, this.normals, colors));
-        this.carried.setTexture(texture);
+        this.setSurfaceGeometry(carriedSurface(map, side, this.target, this.normals, carried));
+        this.carried.setTexture(carried.texture);
         this.mesh.material = this.carried.material;
         this.clipCarried();
         this.viewer.requestRender();
