@@ -103,6 +103,8 @@ struct EmbedJob::Implementation {
     double search_start = 0;
     double cpu_seconds = 0;
     std::uint64_t field_bytes = kMaxFieldBytes;
+    /// Of length along target edges, in the metric; empty for 1.
+    std::vector<double> edge_costs;
     std::unique_ptr<PathGraph> graph;
     std::unique_ptr<Solver> solver;
     EmbedCounters earlier_attempts;
@@ -288,9 +290,9 @@ struct EmbedJob::Implementation {
     {
         solver.reset();
         const PathMetric& metric = options.metric;
-        const std::vector<double> edge_costs =
-            metric.feature_discount > 0 ? feature_costs(*problem.target, metric.feature_discount)
-                                        : std::vector<double>{};
+        edge_costs = metric.feature_discount > 0
+                         ? feature_costs(*problem.target, metric.feature_discount)
+                         : std::vector<double>{};
         graph = std::make_unique<PathGraph>(
             make_graph(*problem.target, {options.seed, attempt, metric.vertex_costs, edge_costs}));
         if (!options.constraints.empty() && options.algorithm != Algorithm::exact) {
@@ -472,33 +474,38 @@ struct EmbedJob::Implementation {
         const std::clock_t cpu_start = std::clock();
         if (!straightening) {
             result.shape_seconds = 0;
-            auto form = normal_form_of(problem, *graph, result.weak);
+            auto form = normal_form_of(problem, *graph, result.weak, edge_costs);
             if (!form) {
                 fail(EmbedStatus::failed, form.error());
                 return;
             }
             run_along_boundary(*form, boundary);
             NormalForm even = *form;
-            open_angles(even, problem.landmarks, StraighteningOptions{}.spacing);
+            open_angles(even, problem.landmarks, StraighteningOptions{}.spacing, edge_costs);
             measure_edges(even);
             if (options.shape == PathShape::even) {
                 cut(even);
                 return;
             }
-            straightening = std::make_unique<Straightening>(std::move(*form), problem.landmarks);
+            StraighteningOptions straight;
+            straight.edge_costs = edge_costs;
+            straightening =
+                std::make_unique<Straightening>(std::move(*form), problem.landmarks, straight);
             shape_ended = false;
             shown_progress = 0;
         } else if (fairing ? fairing->step() : straightening->step()) {
             show_shape_progress();
         } else if (fairing) {
             NormalForm form = fairing->take();
-            open_angles(form, problem.landmarks, FairingOptions{}.spacing);
+            open_angles(form, problem.landmarks, FairingOptions{}.spacing, edge_costs);
             cut(form);
             fairing.reset();
             straightening.reset();
             return;
         } else if (options.shape == PathShape::fair && !shape_ended) {
-            fairing = std::make_unique<Fairing>(*problem.layout, straightening->take());
+            FairingOptions fair;
+            fair.edge_costs = edge_costs;
+            fairing = std::make_unique<Fairing>(*problem.layout, straightening->take(), fair);
         } else {
             cut(straightening->take());
             straightening.reset();

@@ -78,8 +78,10 @@ struct EmbedOptions {
     /// (apps/boundary_paths.hh); for the exact method alone. Costs and bounds are those of the
     /// embeddings with these paths. Error: invalidOption.
     bool boundary_is_followed = false;
-    /// What paths cost; costs, bounds and the gap are in this metric. The shapes `short` and `fair`
-    /// move paths without regard to it. Error: invalidOption.
+    /// What paths cost; costs, bounds and the gap are in this metric. Where a path of the embedding
+    /// runs along whole sharp edges that a discount makes cheaper, it does so in every shape,
+    /// unless it shares them with others, of which one keeps to the edge. Apart from that, `short`
+    /// is short on the surface: vertex costs do not count there. Error: invalidOption.
     PathMetric metric;
 };
 

@@ -307,10 +307,11 @@ void widen_angles(NormalForm& form, const WantedAngles& angles, double spacing, 
     AngleWidening(form, angles, spacing).run(most_length);
 }
 
-void open_angles(NormalForm& form, const std::vector<Index>& landmarks, double spacing)
+void open_angles(NormalForm& form, const std::vector<Index>& landmarks, double spacing,
+                 std::span<const double> edge_costs)
 {
     const WantedAngles angles(form.mesh());
-    VertexMoves moves(form, landmarks);
+    VertexMoves moves(form, landmarks, edge_costs);
     relieve_fans(form, moves, angles);
     keep_gaps(form, CrossingGaps(spacing, &angles));
     widen_angles(form, angles, spacing, std::numeric_limits<double>::infinity());

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "embedding/crossing_room.hh"
 #include "embedding/normal_form.hh"
 #include "embedding/vertex_moves.hh"
@@ -22,7 +25,9 @@ bool relieve_fans(NormalForm& form, VertexMoves& moves, const WantedAngles& angl
 void widen_angles(NormalForm& form, const WantedAngles& angles, double spacing, double most_length);
 
 /// Both, for a form as it is: crossings move only as far as angles and gaps ask for. The landmarks
-/// are those of all strands. O(#F + elements * log).
-void open_angles(NormalForm& form, const std::vector<Index>& landmarks, double spacing);
+/// are those of all strands; none leaves an edge of `edge_costs` below 1 (StraighteningOptions).
+/// O(#F + elements * log).
+void open_angles(NormalForm& form, const std::vector<Index>& landmarks, double spacing,
+                 std::span<const double> edge_costs = {});
 
 }  // namespace layout_embedding

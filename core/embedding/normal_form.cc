@@ -62,20 +62,7 @@ Index NormalForm::segment_edge(Index id) const
     if (a.is_crossing() || b.is_crossing()) {
         return kNone;
     }
-    const Index start = mesh_->outgoing(a.vertex);
-    Index h = start;
-    do {
-        if (mesh_->head(h) == b.vertex) {
-            return mesh_->edge(h);
-        }
-        // The last edge around a boundary vertex has no outgoing halfedge, only this incoming one.
-        const Index incoming = TriangleMesh::previous(h);
-        if (mesh_->tail(incoming) == b.vertex) {
-            return mesh_->edge(incoming);
-        }
-        h = mesh_->rotated_ccw(h);
-    } while (h != kNone && h != start);
-    return kNone;
+    return mesh_->edge_between(a.vertex, b.vertex);
 }
 
 Index NormalForm::new_element()

@@ -31,7 +31,7 @@ Straightening::Straightening(NormalForm form, const std::vector<Index>& landmark
       original_(std::move(form)),
       original_length_(original_.total_length()),
       form_(original_),
-      moves_(form_, landmarks),
+      moves_(form_, landmarks, options.edge_costs),
       waiting_(form_.strand_count(), true),
       waiting_count_(form_.strand_count())
 {}

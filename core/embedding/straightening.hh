@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "embedding/crossing_room.hh"
@@ -17,6 +18,10 @@ struct StraighteningOptions {
     /// Whether strands also make the wanted angles where they leave vertices and cross edges
     /// (embedding/angle_widening.hh), at the price of some length.
     bool open_angles = true;
+    /// Per target edge, what a unit of length along it costs, at most 1 (as in PathMetric); empty
+    /// for
+    /// 1. Strands that run along edges are measured so; all else is plain length. Not copied.
+    std::span<const double> edge_costs = {};
 };
 
 /// Makes all strands of a normal form as short as they get in their homotopy classes (design,
@@ -30,12 +35,16 @@ struct StraighteningOptions {
 /// convex problem, solved by descent over strands and over edges in turn. There is no cycling: each
 /// move over a vertex shortens its strand by more than a fixed share.
 ///
+/// Strands that run along edges of lower cost (StraighteningOptions::edge_costs) stay on them, as
+/// far as that costs less.
+///
 /// The total length never exceeds that of the form given. Plain doubles, in a fixed order: the same
 /// bits on every platform, however the steps are cut into slices.
 class Straightening {
 public:
-    /// `form` has its vertex elements at landmarks only and keeps the gaps of `options.spacing`,
-    /// for instance after NormalForm::spread_evenly().
+    /// `form` has its vertex elements at landmarks and on edges of lower cost only, as
+    /// normal_form_of() puts them, and keeps the gaps of `options.spacing`, for instance after
+    /// NormalForm::spread_evenly().
     Straightening(NormalForm form, const std::vector<Index>& landmarks,
                   StraighteningOptions options = {});
     // Members refer to each other.

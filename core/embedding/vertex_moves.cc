@@ -13,8 +13,9 @@ constexpr Index kForbidden = kNone - 1;
 
 }  // namespace
 
-VertexMoves::VertexMoves(NormalForm& form, const std::vector<Index>& landmarks)
-    : form_(form), carried_(form.mesh().vertex_count(), kNone)
+VertexMoves::VertexMoves(NormalForm& form, const std::vector<Index>& landmarks,
+                         std::span<const double> edge_costs)
+    : form_(form), edge_costs_(edge_costs), carried_(form.mesh().vertex_count(), kNone)
 {
     const TriangleMesh& mesh = form.mesh();
     for (Index h = 0; h < mesh.halfedge_count(); ++h) {
@@ -247,8 +248,12 @@ bool VertexMoves::pop_to_side(Index element, bool left, double spacing)
         here = there;
     }
     length += (form_.position(to) - here).norm();
-    const double over_vertex = (form_.position(from) - mesh.position(vertex)).norm() +
-                               (form_.position(to) - mesh.position(vertex)).norm();
+    if (fan_.empty()) {
+        length *= cost_between(from, to);
+    }
+    const double over_vertex =
+        cost_between(from, element) * (form_.position(from) - mesh.position(vertex)).norm() +
+        cost_between(element, to) * (form_.position(to) - mesh.position(vertex)).norm();
     if (!(length < over_vertex * (1 - kLeastGain))) {
         return false;
     }
@@ -272,9 +277,23 @@ void VertexMoves::leave_vertex(Index element, bool left)
     form_.pop_off_vertex(element, halfedges_, distances_);
 }
 
+double VertexMoves::cost_between(Index a, Index b) const
+{
+    const Index tail = form_.element(a).vertex;
+    const Index head = form_.element(b).vertex;
+    if (edge_costs_.empty() || tail == kNone || head == kNone) {
+        return 1;
+    }
+    const Index edge = form_.mesh().edge_between(tail, head);
+    return edge == kNone ? 1 : edge_costs_[edge];
+}
+
 bool VertexMoves::push_off(Index element, bool left)
 {
     const NormalForm::Element& e = form_.element(element);
+    if (cost_between(e.previous, element) < 1 || cost_between(element, e.next) < 1) {
+        return false;
+    }
     gather_fan(e.vertex, left ? e.next : e.previous, left ? e.previous : e.next, left);
     if (fan_.empty()) {
         return false;

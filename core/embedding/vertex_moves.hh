@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "embedding/funnel.hh"
@@ -11,12 +12,17 @@ namespace layout_embedding {
 /// With these and with StrandTightening, a strand reaches every place in its homotopy class. A move
 /// is made only if it makes the strand shorter by more than a share kLeastGain of the elements
 /// around, so no sequence of moves comes back to where it was.
+///
+/// Segments along target edges that cost less than 1 are that much shorter for it: strands that run
+/// along such edges leave them only where the way beside them costs less.
 class VertexMoves {
 public:
     static constexpr double kLeastGain = 1e-10;
 
-    /// Keeps references. O(#F + elements).
-    VertexMoves(NormalForm& form, const std::vector<Index>& landmarks);
+    /// Keeps references. `edge_costs`: what a unit of length along each target edge costs, at most
+    /// 1; empty for 1. O(#F + elements).
+    VertexMoves(NormalForm& form, const std::vector<Index>& landmarks,
+                std::span<const double> edge_costs = {});
 
     /// Whether a strand may be put on the vertex.
     bool is_free(Index vertex) const { return carried_[vertex] == kNone; }
@@ -36,8 +42,8 @@ public:
     Index snap_to(Index crossing, Index vertex);
 
     /// Moves the strand at a vertex element off the vertex to its left or right, even if it gets
-    /// longer, half of the way to what is there; false if there is no edge to cross. O(vertex
-    /// degree).
+    /// longer, half of the way to what is there; false if there is no edge to cross, or if it runs
+    /// along one that costs less. O(vertex degree).
     bool push_off(Index element, bool left);
 
     /// If the strand at a vertex element makes an angle below pi on one of its sides there, moves
@@ -65,12 +71,16 @@ private:
     bool pop_to_side(Index element, bool left, double spacing);
     /// Puts crossings on the edges of the fan, distances_ from the vertex.
     void leave_vertex(Index element, bool left);
+    /// What a unit of length costs between two neighbours on a strand: less than 1 along some
+    /// edges.
+    double cost_between(Index a, Index b) const;
     /// The part of an edge at the vertex up to its nearest crossing.
     double reach_from(Index vertex, Index edge) const;
     Index outgoing_in_face(Index vertex, Index face) const;
     Index halfedge_between(Index tail, Index head) const;
 
     NormalForm& form_;
+    std::span<const double> edge_costs_;
     /// Per vertex: the element on it; kNone - 1 if it must not carry a strand.
     std::vector<Index> carried_;
 

@@ -16,7 +16,7 @@ struct Pass {
     Index path;
     Index step;
     /// The crossings with target edges that this pass makes, in its own direction: a list linked by
-    /// Conversion::links_.
+    /// Conversion::links_. Or a vertex element.
     Index first_crossing = kNone;
     Index last_crossing = kNone;
 };
@@ -51,11 +51,12 @@ struct Bundle {
 class Conversion {
 public:
     Conversion(const EmbeddingProblem& problem, const PathGraph& graph,
-               const WeakEmbedding& embedding)
+               const WeakEmbedding& embedding, std::span<const double> edge_costs)
         : problem_(problem),
           mesh_(*problem.target),
           graph_(graph),
           paths_(embedding.paths),
+          edge_costs_(edge_costs),
           form_(mesh_, problem.layout->edge_count())
     {}
 
@@ -77,6 +78,11 @@ private:
     /// How many lanes on the given dart (a half-edge that leaves the node) run right of the target
     /// edge, as seen from the node.
     Index lanes_right(Index dart_place, Index edge, bool forward) const;
+    /// Whether a pass through a vertex comes or goes along a whole edge that costs less.
+    bool runs_along_cheap_edge(const Pass& pass) const;
+    /// The pass that is to run over the vertex in the given gap between ends; kNone if there is
+    /// none.
+    Index pass_over_vertex(Index gap) const;
     void link_strands();
     void link_edges();
 
@@ -84,11 +90,12 @@ private:
     const TriangleMesh& mesh_;
     const PathGraph& graph_;
     const std::vector<WeakPath>& paths_;
+    std::span<const double> edge_costs_;
     NormalForm form_;
 
     std::vector<Pass> passes_;
     std::vector<Bundle> bundles_;
-    std::vector<Index> links_;  // per crossing: the next one of its pass
+    std::vector<Index> links_;  // per element so far: the next one of its pass
 
     // Scratch, for one node at a time.
     std::vector<End> ends_;
@@ -282,6 +289,36 @@ Index Conversion::best_gap() const
     return best;
 }
 
+bool Conversion::runs_along_cheap_edge(const Pass& pass) const
+{
+    const std::vector<Index>& darts = paths_[pass.path].darts;
+    const auto is_cheap = [&](std::size_t first) {
+        if (first + 1 >= darts.size()) {
+            return false;
+        }
+        const NodeElement middle = graph_.element(graph_.head(darts[first]));
+        return middle.kind == NodeKind::edge_midpoint && edge_costs_[middle.id] < 1 &&
+               graph_.element(graph_.tail(darts[first])).kind == NodeKind::vertex &&
+               graph_.element(graph_.head(darts[first + 1])).kind == NodeKind::vertex;
+    };
+    return (pass.step > 0 && is_cheap(pass.step - 1)) || is_cheap(pass.step + 1);
+}
+
+Index Conversion::pass_over_vertex(Index gap) const
+{
+    // Only passes beside the gap have no other one between them and the vertex.
+    const Index count = static_cast<Index>(ends_.size());
+    Index best = kNone;
+    for (const Index place : {gap, (gap + count - 1) % count}) {
+        const Index pass = ends_[place].pass;
+        if (runs_along_cheap_edge(passes_[pass]) &&
+            (best == kNone || passes_[pass].path < passes_[best].path)) {
+            best = pass;
+        }
+    }
+    return best;
+}
+
 Status Conversion::cross_at_node(Index begin, Index end)
 {
     const Index node = passes_[begin].node;
@@ -307,6 +344,15 @@ Status Conversion::cross_at_node(Index begin, Index end)
     }
     const Index count = static_cast<Index>(ends_.size());
     gap %= count;
+    Index over_vertex = kNone;
+    if (!edge_costs_.empty() && element.kind == NodeKind::vertex && !graph_.is_boundary(node)) {
+        over_vertex = pass_over_vertex(gap);
+        if (over_vertex != kNone) {
+            Pass& pass = passes_[over_vertex];
+            pass.first_crossing = pass.last_crossing = form_.add_vertex(element.id);
+            links_.push_back(kNone);
+        }
+    }
 
     // Walk around the node from the gap. The passes that are open at a ray are the ones that cross
     // it, the outermost nearest to the node.
@@ -317,6 +363,9 @@ Status Conversion::cross_at_node(Index begin, Index end)
         const Index place = ray.place > gap ? ray.place - gap : ray.place + count - gap;
         for (; walked < place; ++walked) {
             const Index i = (walked + gap) % count;
+            if (ends_[i].pass == over_vertex) {
+                continue;
+            }
             // An end opens its pass unless its mate has been walked over.
             const Index mate = (ends_[i].mate + count - gap) % count;
             if (mate > walked) {
@@ -436,9 +485,10 @@ Result<NormalForm> Conversion::run()
 }  // namespace
 
 Result<NormalForm> normal_form_of(const EmbeddingProblem& problem, const PathGraph& graph,
-                                  const WeakEmbedding& embedding)
+                                  const WeakEmbedding& embedding,
+                                  std::span<const double> edge_costs)
 {
-    return Conversion(problem, graph, embedding).run();
+    return Conversion(problem, graph, embedding, edge_costs).run();
 }
 
 }  // namespace layout_embedding

@@ -60,6 +60,24 @@ TriangleMesh::TriangleMesh(const PolygonMesh& mesh)
     }
 }
 
+Index TriangleMesh::edge_between(Index a, Index b) const
+{
+    const Index start = outgoing(a);
+    Index h = start;
+    do {
+        if (head(h) == b) {
+            return edge(h);
+        }
+        // The last edge around a boundary vertex has no outgoing halfedge, only this incoming one.
+        const Index incoming = previous(h);
+        if (tail(incoming) == b) {
+            return edge(incoming);
+        }
+        h = rotated_ccw(h);
+    } while (h != kNone && h != start);
+    return kNone;
+}
+
 Index TriangleMesh::boundary_loop_count() const
 {
     std::vector<bool> seen(halfedge_count(), false);

@@ -58,6 +58,8 @@ public:
     /// The next outgoing halfedge counter-clockwise around the tail of h; kNone at the boundary.
     Index rotated_ccw(Index h) const { return opposites_[previous(h)]; }
     bool is_boundary_vertex(Index vertex) const { return opposite(outgoing(vertex)) == kNone; }
+    /// The edge that joins two vertices, kNone if there is none. O(degree of `a`).
+    Index edge_between(Index a, Index b) const;
 
     /// Number of boundary loops.
     Index boundary_loop_count() const;

@@ -90,8 +90,27 @@ Fairing::Fairing(const Layout& layout, NormalForm form, FairingOptions options)
     for (Index edge = 0; edge < layout.edge_count(); ++edge) {
         const Index left = layout.face(2 * edge);
         const Index right = layout.face(2 * edge + 1);
-        waiting_[edge] = left != kNone && right != kNone && left != right;
+        if (runs_along_cheap_edge(edge)) {
+            attempts_[edge] = options_.rounds;  // never
+        } else {
+            waiting_[edge] = left != kNone && right != kNone && left != right;
+        }
     }
+}
+
+bool Fairing::runs_along_cheap_edge(Index strand) const
+{
+    if (options_.edge_costs.empty()) {
+        return false;
+    }
+    for (Index id = original_.first(strand); original_.element(id).next != kNone;
+         id = original_.element(id).next) {
+        const Index edge = original_.segment_edge(id);
+        if (edge != kNone && options_.edge_costs[edge] < 1) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool Fairing::step()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "embedding/crossing_room.hh"
@@ -18,6 +19,9 @@ struct FairingOptions {
     double spacing = 0.25;
     /// How often a path may be traced anew at most.
     Index rounds = 3;
+    /// As in StraighteningOptions::edge_costs: paths that run along an edge of lower cost stay as
+    /// they are. Not copied.
+    std::span<const double> edge_costs = {};
 };
 
 /// Makes patches rounder at the price of longer paths (PathShape::fair; [PSS01], Sec. 4.2: Praun,
@@ -32,8 +36,8 @@ struct FairingOptions {
 /// only once one of its patches has changed. Patches that stay thin because they lie between many
 /// paths over the same edges then get wider gaps there, and at the end a few sweeps take the jags
 /// out of the traces that come from the triangles they run through. Paths with the same layout face
-/// on both sides, or with none on one side, stay as they are; so do those whose disk cannot be
-/// mapped without flips in double precision.
+/// on both sides, or with none on one side, stay as they are; so do those that run along edges of
+/// lower cost, and those whose disk cannot be mapped without flips in double precision.
 ///
 /// Plain doubles, in a fixed order: the same bits on every platform, however the steps are cut into
 /// slices.
@@ -59,6 +63,8 @@ public:
 
 private:
     enum class Stage { choose, trace, compare, widen, smooth, done };
+
+    bool runs_along_cheap_edge(Index strand) const;
 
     /// An element of a strand: a vertex of the target, or a crossing as in NormalForm::Element.
     struct Place {

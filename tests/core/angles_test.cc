@@ -5,13 +5,10 @@
 #include <map>
 #include <set>
 
+#include "embedded_forms.hh"
 #include "embedding/angle_refinement.hh"
 #include "embedding/angle_widening.hh"
-#include "embedding/check_input.hh"
-#include "embedding/realisation.hh"
-#include "embedding/straightening.hh"
 #include "embedding/wanted_angles.hh"
-#include "embedding/weak_to_normal_form.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
 #include "patches/patch_shape.hh"
@@ -21,32 +18,15 @@ namespace layout_embedding {
 namespace {
 
 using Instance = test::EmbeddedInstance;
-
-const std::vector<Instance>& all_instances()
-{
-    static const std::vector<Instance> instances = test::embedded_instances(1);
-    return instances;
-}
-
-NormalForm even_form(const Instance& instance)
-{
-    auto form = normal_form_of(instance.problem, instance.graph, instance.weak);
-    EXPECT_TRUE(form.ok()) << form.error().message;
-    return std::move(*form);
-}
+using test::all_embedded_instances;
+using test::cut;
+using test::even_form;
 
 NormalForm open_form(const Instance& instance)
 {
     NormalForm form = even_form(instance);
     open_angles(form, instance.problem.landmarks, 0.25);
     return form;
-}
-
-RefinedMesh cut(const Instance& instance, const NormalForm& form)
-{
-    auto refined = cut_along(*instance.problem.layout, form);
-    EXPECT_TRUE(refined.ok()) << refined.error().message;
-    return refined.ok() ? std::move(*refined) : RefinedMesh{};
 }
 
 double degrees(double tangent)
@@ -133,7 +113,7 @@ TEST(Angles, opening_them_keeps_every_embedding_valid_and_makes_few_smaller)
 {
     int better = 0;
     int worse = 0;
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const RefinedMesh before = cut(instance, even_form(instance));
         const RefinedMesh after = cut(instance, open_form(instance));
@@ -149,7 +129,7 @@ TEST(Angles, opening_them_keeps_every_embedding_valid_and_makes_few_smaller)
 
 TEST(Angles, refinement_keeps_every_embedding_valid_and_all_paths_as_they_are)
 {
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const TriangleMesh& target = *instance.problem.target;
         const Layout& layout = *instance.problem.layout;
@@ -184,7 +164,7 @@ TEST(Angles, refinement_leaves_small_ones_only_between_edges_that_stay)
 {
     int thin = 0;
     int mended = 0;
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const TriangleMesh& target = *instance.problem.target;
         RefinedMesh refined = cut(instance, open_form(instance));
@@ -210,18 +190,13 @@ TEST(Angles, refinement_leaves_small_ones_only_between_edges_that_stay)
 
 TEST(Angles, the_size_of_the_target_does_not_matter)
 {
-    for (std::size_t i = 0; i < all_instances().size(); i += 8) {
-        const Instance& instance = all_instances()[i];
+    for (std::size_t i = 0; i < all_embedded_instances().size(); i += 8) {
+        const Instance& instance = all_embedded_instances()[i];
         SCOPED_TRACE(instance.name);
         RefinedMesh refined = cut(instance, open_form(instance));
         refine_thin_triangles(*instance.problem.target, refined);
         for (const double scale : {0x1p-30, 0x1p40}) {
-            PolygonMesh mesh = to_polygons(*instance.problem.target);
-            for (Vec3& p : mesh.positions) {
-                p = scale * p;
-            }
-            Instance scaled = instance;
-            scaled.problem.target = std::make_shared<TriangleMesh>(mesh);
+            const Instance scaled = test::scaled(instance, scale);
             RefinedMesh other = cut(scaled, open_form(scaled));
             refine_thin_triangles(*scaled.problem.target, other);
             EXPECT_EQ(other.corners, refined.corners);

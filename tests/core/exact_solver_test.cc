@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <gtest/gtest.h>
 
+#include "all_selections.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
 #include "search/sequence_solver.hh"
-#include "search_ground.hh"
-#include "surface/hole_guard.hh"
 #include "surface/path_metric.hh"
-#include "surface/stretch.hh"
 #include "zoo.hh"
 
 namespace layout_embedding {
@@ -83,115 +80,6 @@ std::vector<Instance> small_instances(std::uint64_t seed, int count)
     return instances;
 }
 
-/// The cheapest selection of homotopy classes by trying all that are cheaper than `limit`, each
-/// edge's classes enumerated as far as that needs. Nothing is shared with the solver but the
-/// enumeration and the test of two walks for a crossing.
-class AllSelections {
-public:
-    /// Whether a layout edge may be in the class of a shortest walk.
-    using Filter = std::function<bool(Index, const std::vector<Index>&)>;
-
-    AllSelections(
-        const EmbeddingProblem& problem, Length limit,
-        const Filter& admits = [](Index, const auto&) { return true; },
-        const PathGraph::Options& graph_options = {})
-        : ground_(problem, graph_options), best_(limit), classes_(problem.layout->edge_count())
-    {
-        const Layout& layout = ground_.strands.layout();
-        std::vector<Index> nodes;
-        for (Index v = 0; v < layout.vertex_count(); ++v) {
-            nodes.push_back(ground_.strands.landmark_node(v));
-        }
-        std::vector<Length> shortest;
-        Length root = 0;
-        for (Index e = 0; e < layout.edge_count(); ++e) {
-            ground_.search.begin(e);
-            EXPECT_EQ(ground_.search.run(), CutSurfaceSearch::Outcome::found);
-            shortest.push_back(ground_.search.cost());
-            root += shortest.back();
-        }
-        const bool has_holes = problem.target->boundary_loop_count() > 0;
-        for (Index e = 0; e < layout.edge_count(); ++e) {
-            Index v = has_holes ? kNone : 0;
-            while (v == layout.tail(2 * e) || v == layout.head(2 * e)) {
-                ++v;
-            }
-            const CutSystem cuts(ground_.graph, nodes, v);
-            ClassEnumeration enumeration(ground_.strands, ground_.fields);
-            enumeration.begin(cuts, e, shortest[e] + (limit - root));
-            while (enumeration.run() == ClassEnumeration::Outcome::found) {
-                if (admits(e, enumeration.darts())) {
-                    classes_[e].push_back({enumeration.cost(), enumeration.darts()});
-                }
-            }
-        }
-        rest_.assign(classes_.size() + 1, 0);
-        for (std::size_t e = classes_.size(); e-- > 0;) {
-            rest_[e] = rest_[e + 1] + shortest[e];
-        }
-        visit(0, 0);
-    }
-
-    Length best() const { return best_; }
-
-private:
-    struct Class {
-        Length cost;
-        std::vector<Index> darts;
-    };
-
-    bool crosses(const std::vector<Index>& a, const std::vector<Index>& b) const
-    {
-        const PathGraph& graph = ground_.graph;
-        for (Index i = 0; i + 1 < a.size(); ++i) {
-            for (Index j = 0; j + 1 < b.size(); ++j) {
-                if (graph.head(a[i]) == graph.head(b[j]) && stretch_crosses(graph, a, i, b, j)) {
-                    return true;
-                }
-            }
-        }
-        return false;
-    }
-
-    void visit(Index edge, Length cost)
-    {
-        if (cost + rest_[edge] >= best_) {
-            return;
-        }
-        if (edge == classes_.size()) {
-            // The strands themselves say whether the orders around the landmarks are right, and
-            // whether the holes are where they belong.
-            bool fits = true;
-            Index inserted = 0;
-            for (Index e = 0; e < edge && fits; ++e) {
-                fits = ground_.strands.insert(e, chosen_[e]->darts);
-                inserted += fits ? 1 : 0;
-            }
-            fits = fits && HoleGuard(ground_.strands).accepts();
-            while (inserted-- > 0) {
-                ground_.strands.undo();
-            }
-            best_ = fits ? cost : best_;
-            return;
-        }
-        for (const Class& candidate : classes_[edge]) {
-            if (std::none_of(chosen_.begin(), chosen_.end(), [&](const Class* other) {
-                    return crosses(candidate.darts, other->darts);
-                })) {
-                chosen_.push_back(&candidate);
-                visit(edge + 1, cost + candidate.cost);
-                chosen_.pop_back();
-            }
-        }
-    }
-
-    test::SearchGround ground_;
-    Length best_;
-    std::vector<std::vector<Class>> classes_;
-    std::vector<Length> rest_;
-    std::vector<const Class*> chosen_;
-};
-
 TEST(ExactSolver, finds_the_best_of_all_selections)
 {
     int above_root = 0;
@@ -200,7 +88,7 @@ TEST(ExactSolver, finds_the_best_of_all_selections)
         SCOPED_TRACE(instance.name);
         const ExactRun run(instance.problem, {});
         ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
-        const AllSelections all(instance.problem, run.solver.incumbent_cost() + 1);
+        const test::AllSelections all(instance.problem, run.solver.incumbent_cost() + 1);
         EXPECT_EQ(run.solver.incumbent_cost(), all.best());
         above_root += run.solver.counters().states_created > 0 ? 1 : 0;
         looked_into += run.solver.counters().states_expanded > 0 ? 1 : 0;
@@ -224,9 +112,8 @@ TEST(ExactSolver, finds_the_best_of_all_selections_in_any_metric)
         const PathGraph::Options metric{1, 0, vertex_costs, edge_costs};
         const ExactRun run(instance.problem, {}, UINT64_MAX, UINT64_MAX, metric);
         ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
-        const AllSelections all(
-            instance.problem, run.solver.incumbent_cost() + 1,
-            [](Index, const auto&) { return true; }, metric);
+        const test::AllSelections all(instance.problem, run.solver.incumbent_cost() + 1,
+                                      {.graph = metric});
         EXPECT_EQ(run.solver.incumbent_cost(), all.best());
         const ExactRun euclidean(instance.problem, {});
         other += run.solver.incumbent_order() != euclidean.solver.incumbent_order() ||
@@ -282,7 +169,7 @@ TEST(ExactSolver, finds_the_best_of_all_selections_that_leave_the_holes_where_th
         const ExactRun run(instance.problem, {});
         ASSERT_NE(run.solver.incumbent_cost(), kInfiniteLength);
         ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
-        const AllSelections all(instance.problem, run.solver.incumbent_cost() + 1);
+        const test::AllSelections all(instance.problem, run.solver.incumbent_cost() + 1);
         EXPECT_EQ(run.solver.incumbent_cost(), all.best());
         SequenceSolverOptions greedy_only = best_sequence();
         greedy_only.branch_and_bound.max_states = 1;
@@ -320,9 +207,9 @@ TEST(ExactSolver, finds_the_best_of_all_selections_that_comply_with_constraints)
         ASSERT_NE(cost, kInfiniteLength);
         EXPECT_EQ(avoiding.solver.lower_bound(), cost);
         EXPECT_GE(cost, free.solver.incumbent_cost());
-        const AllSelections others(instance.problem, cost + 1, [&](Index e, const auto& darts) {
-            return e != edge || darts != before;
-        });
+        const test::AllSelections others(
+            instance.problem, cost + 1,
+            {.admits = [&](Index e, const auto& darts) { return e != edge || darts != before; }});
         EXPECT_EQ(cost, others.best());
         const auto after = avoiding.solver.incumbent().paths[edge].darts;
         EXPECT_NE(after, before);

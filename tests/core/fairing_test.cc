@@ -6,10 +6,8 @@
 #include <map>
 
 #include "base/random.hh"
+#include "embedded_forms.hh"
 #include "embedding/check_input.hh"
-#include "embedding/realisation.hh"
-#include "embedding/straightening.hh"
-#include "embedding/weak_to_normal_form.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
 #include "patches/patch_shape.hh"
@@ -21,8 +19,11 @@
 namespace layout_embedding {
 namespace {
 
+using test::cut;
+using test::fair_form;
+
 struct Straightened {
-    test::EmbeddedInstance instance;
+    const test::EmbeddedInstance& instance;
     NormalForm form;
 };
 
@@ -31,33 +32,13 @@ const std::vector<Straightened>& straightened_instances()
 {
     static const std::vector<Straightened> all = [] {
         std::vector<Straightened> list;
-        const auto instances = test::embedded_instances(1);
+        const auto& instances = test::all_embedded_instances();
         for (std::size_t i = 0; i < instances.size(); i += 8) {
-            auto form = normal_form_of(instances[i].problem, instances[i].graph, instances[i].weak);
-            EXPECT_TRUE(form.ok()) << form.error().message;
-            Straightening straightening(std::move(*form), instances[i].problem.landmarks);
-            while (straightening.step()) {
-            }
-            list.push_back({instances[i], straightening.take()});
+            list.push_back({instances[i], test::straight_form(instances[i])});
         }
         return list;
     }();
     return all;
-}
-
-NormalForm fair(const Layout& layout, const NormalForm& form)
-{
-    Fairing fairing(layout, form);
-    while (fairing.step()) {
-    }
-    return fairing.take();
-}
-
-RefinedMesh cut(const Layout& layout, const NormalForm& form)
-{
-    auto refined = cut_along(layout, form);
-    EXPECT_TRUE(refined.ok()) << refined.error().message;
-    return refined.ok() ? std::move(*refined) : RefinedMesh{};
 }
 
 double worst_quotient(const Layout& layout, const RefinedMesh& refined)
@@ -76,9 +57,9 @@ TEST(Fairing, keeps_every_embedding_valid_and_makes_thin_patches_rounder)
     for (const Straightened& s : straightened_instances()) {
         SCOPED_TRACE(s.instance.name);
         const Layout& layout = *s.instance.problem.layout;
-        const double before = worst_quotient(layout, cut(layout, s.form));
-        const NormalForm form = fair(layout, s.form);
-        const RefinedMesh refined = cut(layout, form);
+        const double before = worst_quotient(layout, cut(s.instance, s.form));
+        const NormalForm form = fair_form(s.instance, s.form);
+        const RefinedMesh refined = cut(s.instance, form);
         test::expect_valid(s.instance.problem, s.instance.graph, s.instance.weak, refined);
         const double after = worst_quotient(layout, refined);
         EXPECT_GE(after, before * (1 - 1e-9));
@@ -107,7 +88,7 @@ TEST(Fairing, can_be_ended_after_any_step)
         EXPECT_EQ(fairing.progress(), 1);
         EXPECT_FALSE(fairing.step());
         test::expect_valid(s.instance.problem, s.instance.graph, s.instance.weak,
-                           cut(*s.instance.problem.layout, fairing.take()));
+                           cut(s.instance, fairing.take()));
     }
 }
 
@@ -116,7 +97,6 @@ TEST(Fairing, the_size_of_the_target_does_not_matter)
     for (std::size_t i = 0; i < straightened_instances().size(); i += 10) {
         const Straightened& s = straightened_instances()[i];
         SCOPED_TRACE(s.instance.name);
-        const Layout& layout = *s.instance.problem.layout;
         PolygonMesh polygons = to_polygons(*s.instance.problem.target);
         for (Vec3& p : polygons.positions) {
             p = 0x1p20 * p;
@@ -140,8 +120,8 @@ TEST(Fairing, the_size_of_the_target_does_not_matter)
                 copy.set_parameter(ids[id], s.form.element(id).parameter);
             }
         }
-        const NormalForm form = fair(layout, s.form);
-        const NormalForm other = fair(layout, copy);
+        const NormalForm form = fair_form(s.instance, s.form);
+        const NormalForm other = fair_form(s.instance, copy);
         ASSERT_EQ(other.element_count(), form.element_count());
         for (Index id = 0; id < form.element_count(); ++id) {
             EXPECT_EQ(other.element(id).parameter, form.element(id).parameter);
@@ -157,7 +137,7 @@ TEST(PatchUnion, is_a_disk_through_which_the_line_runs_straight)
         const Straightened& s = straightened_instances()[i];
         SCOPED_TRACE(s.instance.name);
         const Layout& layout = *s.instance.problem.layout;
-        const RefinedMesh refined = cut(layout, s.form);
+        const RefinedMesh refined = cut(s.instance, s.form);
         const auto patches = patches_of(layout, refined);
         ASSERT_TRUE(patches.ok());
         for (Index edge = 0; edge < layout.edge_count(); edge += 3) {
@@ -294,46 +274,29 @@ TEST(QualityReport, knows_a_square_of_straight_paths)
     }
 }
 
-TEST(QualityReport, straightened_paths_turn_less)
+TEST(QualityReport, straight_and_fair_paths_turn_at_most_half_as_much_as_jagged_ones)
 {
-    double even_turning = 0;
-    double turning = 0;
+    double even = 0;
+    double straight = 0;
+    double fair = 0;
     for (std::size_t i = 0; i < straightened_instances().size(); i += 6) {
-        const Straightened& s = straightened_instances()[i];
-        SCOPED_TRACE(s.instance.name);
-        const Layout& layout = *s.instance.problem.layout;
-        const auto even = realise(s.instance.problem, s.instance.graph, s.instance.weak);
-        ASSERT_TRUE(even.ok());
-        const auto before = quality_report(layout, *even);
-        const auto after = quality_report(layout, cut(layout, s.form));
-        ASSERT_TRUE(before.ok() && after.ok());
-        for (Index e = 0; e < layout.edge_count(); ++e) {
-            even_turning += before->edges[e].turning;
-            turning += after->edges[e].turning;
-        }
+        const auto& [instance, form] = straightened_instances()[i];
+        SCOPED_TRACE(instance.name);
+        const auto turning = [&instance = instance](const NormalForm& of) {
+            const auto report = quality_report(*instance.problem.layout, cut(instance, of));
+            EXPECT_TRUE(report.ok());
+            double sum = 0;
+            for (const QualityReport::Edge& edge : report->edges) {
+                sum += edge.turning;
+            }
+            return sum;
+        };
+        even += turning(test::even_form(instance));
+        straight += turning(form);
+        fair += turning(fair_form(instance, form));
     }
-    EXPECT_LT(turning, 0.5 * even_turning);
-}
-
-TEST(QualityReport, fair_paths_turn_at_most_half_as_much_as_jagged_ones)
-{
-    double even_turning = 0;
-    double fair_turning = 0;
-    for (std::size_t i = 0; i < straightened_instances().size(); i += 6) {
-        const Straightened& s = straightened_instances()[i];
-        SCOPED_TRACE(s.instance.name);
-        const Layout& layout = *s.instance.problem.layout;
-        const auto even = realise(s.instance.problem, s.instance.graph, s.instance.weak);
-        ASSERT_TRUE(even.ok());
-        const auto before = quality_report(layout, *even);
-        const auto after = quality_report(layout, cut(layout, fair(layout, s.form)));
-        ASSERT_TRUE(before.ok() && after.ok());
-        for (Index e = 0; e < layout.edge_count(); ++e) {
-            even_turning += before->edges[e].turning;
-            fair_turning += after->edges[e].turning;
-        }
-    }
-    EXPECT_LT(fair_turning, 0.5 * even_turning);
+    EXPECT_LT(straight, 0.5 * even);
+    EXPECT_LT(fair, 0.5 * even);
 }
 
 }  // namespace

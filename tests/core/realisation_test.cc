@@ -8,9 +8,9 @@
 #include <numeric>
 #include <set>
 
-#include "embedding/check_input.hh"
-#include "embedding/checker.hh"
+#include "embedded_forms.hh"
 #include "embedding/weak_to_normal_form.hh"
+#include "embedding_checks.hh"
 #include "instances.hh"
 #include "search_ground.hh"
 #include "surface/strands.hh"
@@ -20,12 +20,7 @@ namespace layout_embedding {
 namespace {
 
 using Instance = test::EmbeddedInstance;
-
-const std::vector<Instance>& all_instances()
-{
-    static const std::vector<Instance> instances = test::embedded_instances(1);
-    return instances;
-}
+using test::all_embedded_instances;
 
 /// What the comments of NormalForm promise, and that there are no bigons.
 void expect_sound(const NormalForm& form, const EmbeddingProblem& problem)
@@ -104,19 +99,6 @@ double area(const Vec3& a, const Vec3& b, const Vec3& c)
     return 0.5 * (b - a).cross(c - a).norm();
 }
 
-void expect_passes_checker(const Instance& instance, const RefinedMesh& refined)
-{
-    const PolygonMesh layout = to_polygons(*instance.problem.layout);
-    const PolygonMesh target = to_polygons(*instance.problem.target);
-    const auto edges = layout_edges(*instance.problem.layout);
-    const auto weak = weak_points(*instance.problem.target, instance.graph, instance.weak);
-    const CheckReport report =
-        check_embedding({layout, target, instance.problem.landmarks, refined, edges, weak});
-    for (const Violation& violation : report.violations) {
-        ADD_FAILURE() << violation.code << ": " << violation.message;
-    }
-}
-
 bool equal(const RefinedMesh& a, const RefinedMesh& b)
 {
     return a.positions == b.positions && a.corners == b.corners &&
@@ -129,7 +111,7 @@ TEST(Realisation, instances_cover_every_kind_of_surface_and_crowded_edges)
 {
     std::map<std::string, int> counts;
     Index most = 0;
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         for (const char* kind : {"torus on torus", "genus 2 on slab of genus 2", "ring on annulus",
                                  "grid on grid disk", "wheel on hemisphere", "dangling",
                                  "boundary landmarks", "polygon on icosphere", "random", "bumpy"}) {
@@ -145,13 +127,13 @@ TEST(Realisation, instances_cover_every_kind_of_surface_and_crowded_edges)
     for (const auto& [kind, count] : counts) {
         EXPECT_GE(count, 1) << kind;
     }
-    EXPECT_GE(all_instances().size(), 300U);
+    EXPECT_GE(all_embedded_instances().size(), 300U);
     EXPECT_GE(most, 12U);
 }
 
 TEST(Realisation, normal_forms_are_sound_and_free_of_bigons)
 {
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const auto form = normal_form_of(instance.problem, instance.graph, instance.weak);
         ASSERT_TRUE(form.ok()) << form.error().message;
@@ -163,7 +145,7 @@ TEST(Realisation, passing_a_vertex_crosses_at_most_half_of_its_edges)
 {
     // The vertex is put where it has at least half of its edges on its own side of every pass, and
     // bigons only make it fewer. A midpoint costs a crossing of its edge at most.
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const TriangleMesh& mesh = *instance.problem.target;
         if (mesh.boundary_loop_count() > 0) {
@@ -195,17 +177,17 @@ TEST(Realisation, passing_a_vertex_crosses_at_most_half_of_its_edges)
 
 TEST(Realisation, every_embedding_passes_the_checker)
 {
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const auto refined = realise(instance.problem, instance.graph, instance.weak);
         ASSERT_TRUE(refined.ok()) << refined.error().message;
-        expect_passes_checker(instance, *refined);
+        test::expect_valid(instance.problem, instance.graph, instance.weak, *refined);
     }
 }
 
 TEST(Realisation, triangles_of_a_face_have_its_area_and_none_is_degenerate)
 {
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const TriangleMesh& mesh = *instance.problem.target;
         const auto refined = realise(instance.problem, instance.graph, instance.weak);
@@ -228,7 +210,7 @@ TEST(Realisation, triangles_of_a_face_have_its_area_and_none_is_degenerate)
 
 TEST(Realisation, new_vertices_are_just_the_crossings)
 {
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const TriangleMesh& mesh = *instance.problem.target;
         const auto form = normal_form_of(instance.problem, instance.graph, instance.weak);
@@ -253,7 +235,7 @@ TEST(Realisation, new_vertices_are_just_the_crossings)
 
 TEST(Realisation, faces_that_no_chain_enters_stay_as_they_are)
 {
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const TriangleMesh& mesh = *instance.problem.target;
         const auto refined = realise(instance.problem, instance.graph, instance.weak);
@@ -277,7 +259,7 @@ TEST(Realisation, the_order_of_insertion_leaves_no_trace)
     // The same walks inserted in other orders, wherever these trace, are the same embedding.
     Random random(11);
     int reordered = 0;
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         std::vector<Index> order(instance.weak.paths.size());
         std::iota(order.begin(), order.end(), Index{0});
@@ -302,18 +284,13 @@ TEST(Realisation, the_order_of_insertion_leaves_no_trace)
 
 TEST(Realisation, size_and_place_of_the_target_do_not_matter)
 {
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         for (const double scale : {0x1p-30, 0x1p40}) {
-            PolygonMesh moved = to_polygons(*instance.problem.target);
-            for (Vec3& p : moved.positions) {
-                p = scale * p;
-            }
-            EmbeddingProblem problem = instance.problem;
-            problem.target = std::make_shared<TriangleMesh>(moved);
+            const Instance other = test::scaled(instance, scale);
             // Lengths do not matter any more, the darts are the same.
             const auto a = realise(instance.problem, instance.graph, instance.weak);
-            const auto b = realise(problem, instance.graph, instance.weak);
+            const auto b = realise(other.problem, instance.graph, instance.weak);
             ASSERT_TRUE(a.ok() && b.ok());
             EXPECT_EQ(a->corners, b->corners);
             EXPECT_EQ(a->vertex_barycentrics, b->vertex_barycentrics);
@@ -352,7 +329,7 @@ TEST(Realisation, strands_in_exchanged_lanes_are_refused_or_cross_for_nobody)
     // Exchanging two lanes of one edge makes the two strands cross twice, at the edge's ends. Where
     // both crossings lie in one face they can be pulled apart again; no other case may pass.
     int refused = 0;
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         int tried = 0;
         std::map<Index, std::pair<Index, Index>> first_passes;  // of each dart
@@ -370,7 +347,7 @@ TEST(Realisation, strands_in_exchanged_lanes_are_refused_or_cross_for_nobody)
                 std::swap(swapped.paths[p].lanes[i], swapped.paths[q].lanes[j]);
                 const auto refined = realise(instance.problem, instance.graph, swapped);
                 if (refined.ok()) {
-                    expect_passes_checker(instance, *refined);
+                    test::expect_valid(instance.problem, instance.graph, instance.weak, *refined);
                 } else {
                     EXPECT_EQ(refined.error().code, ErrorCode::realisationFailed);
                     EXPECT_FALSE(refined.error().details.empty());
@@ -384,7 +361,7 @@ TEST(Realisation, strands_in_exchanged_lanes_are_refused_or_cross_for_nobody)
 
 TEST(Realisation, incomplete_and_torn_paths_are_refused)
 {
-    const Instance& instance = all_instances().front();
+    const Instance& instance = all_embedded_instances().front();
     const auto refuses = [&](const auto& damage) {
         WeakEmbedding weak = instance.weak;
         damage(weak);

@@ -6,50 +6,24 @@
 #include <limits>
 
 #include "base/random.hh"
-#include "embedding/check_input.hh"
+#include "embedded_forms.hh"
 #include "embedding/crossing_room.hh"
 #include "embedding/funnel.hh"
 #include "embedding/isotonic.hh"
-#include "embedding/realisation.hh"
-#include "embedding/weak_to_normal_form.hh"
 #include "embedding_checks.hh"
 #include "geodesic_reference.hh"
 #include "instances.hh"
-#include "search_ground.hh"
 #include "zoo.hh"
 
 namespace layout_embedding {
 namespace {
 
 using Instance = test::EmbeddedInstance;
-
-const std::vector<Instance>& all_instances()
-{
-    static const std::vector<Instance> instances = test::embedded_instances(1);
-    return instances;
-}
-
-NormalForm even_form(const Instance& instance)
-{
-    auto form = normal_form_of(instance.problem, instance.graph, instance.weak);
-    EXPECT_TRUE(form.ok()) << form.error().message;
-    return std::move(*form);
-}
-
-NormalForm straightened(const Instance& instance, StraighteningOptions options = {})
-{
-    Straightening straightening(even_form(instance), instance.problem.landmarks, options);
-    while (straightening.step()) {
-    }
-    return straightening.take();
-}
-
-void expect_valid(const Instance& instance, const NormalForm& form)
-{
-    const auto refined = cut_along(*instance.problem.layout, form);
-    ASSERT_TRUE(refined.ok()) << refined.error().message;
-    test::expect_valid(instance.problem, instance.graph, instance.weak, *refined);
-}
+using test::all_embedded_instances;
+using test::embedded;
+using test::even_form;
+using test::expect_valid;
+using test::straight_form;
 
 /// Neighbours on an edge, and crossings and its ends, are as far apart as they should be.
 void expect_gaps(const NormalForm& form, double spacing)
@@ -67,21 +41,6 @@ void expect_gaps(const NormalForm& form, double spacing)
         if (count > 0) {
             EXPECT_GE(1 - before, least);
         }
-    }
-}
-
-/// A problem of the zoo that is known to be one, embedded by insertion in random order.
-Instance embedded(const std::string& name, const PolygonMesh& layout, const PolygonMesh& target,
-                  std::vector<Index> landmarks, std::uint64_t seed)
-{
-    EmbeddingProblem problem = test::problem_of(layout, target, std::move(landmarks));
-    PathGraph graph = PathGraph::barycentric(*problem.target, {seed, 0});
-    for (std::uint64_t attempt = 0;; ++attempt) {
-        Random random(seed + attempt);
-        if (auto weak = test::insert_in_random_order(problem, graph, random)) {
-            return {name, std::move(problem), std::move(graph), std::move(*weak)};
-        }
-        EXPECT_LT(attempt, 50U) << name;
     }
 }
 
@@ -174,24 +133,24 @@ TEST(Funnel, finds_the_shortest_way_among_all_chains_of_portal_ends)
 TEST(Straightening, keeps_every_embedding_valid_and_makes_none_longer)
 {
     double shares = 0;
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
         const double before = even_form(instance).total_length();
-        const NormalForm form = straightened(instance);
+        const NormalForm form = straight_form(instance);
         EXPECT_LE(form.total_length(), before);
         expect_gaps(form, StraighteningOptions{}.spacing);
         expect_valid(instance, form);
         shares += form.total_length() / before;
     }
-    EXPECT_LT(shares / static_cast<double>(all_instances().size()), 0.9);
+    EXPECT_LT(shares / static_cast<double>(all_embedded_instances().size()), 0.9);
 }
 
 TEST(Straightening, strands_pass_free_vertices_one_at_a_time)
 {
     int passed = 0;
-    for (const Instance& instance : all_instances()) {
+    for (const Instance& instance : all_embedded_instances()) {
         SCOPED_TRACE(instance.name);
-        const NormalForm form = straightened(instance);
+        const NormalForm form = straight_form(instance);
         std::vector<int> passes(form.mesh().vertex_count(), 0);
         for (const Index landmark : instance.problem.landmarks) {
             passes[landmark] = 1;
@@ -214,10 +173,10 @@ TEST(Straightening, reaches_the_locally_shortest_length_of_each_class)
     // limit for single instances.
     double sum = 0;
     int compared = 0;
-    for (std::size_t i = 0; i < all_instances().size(); i += 3) {
-        const Instance& instance = all_instances()[i];
+    for (std::size_t i = 0; i < all_embedded_instances().size(); i += 3) {
+        const Instance& instance = all_embedded_instances()[i];
         SCOPED_TRACE(instance.name);
-        const NormalForm form = straightened(instance, {1e-3, false});
+        const NormalForm form = straight_form(instance, {.spacing = 1e-3, .open_angles = false});
         double shortest = 0;
         bool known = true;
         for (Index e = 0; known && e < form.strand_count(); ++e) {
@@ -252,7 +211,7 @@ TEST(Straightening, makes_straight_lines_in_the_plane)
             return test::total_length(a.graph, a.weak) * a.graph.unit() <
                    test::total_length(b.graph, b.weak) * b.graph.unit();
         });
-    const NormalForm form = straightened(instance, {1e-3, false});
+    const NormalForm form = straight_form(instance, {.spacing = 1e-3, .open_angles = false});
     expect_valid(instance, form);
     const Layout& layout = *instance.problem.layout;
     for (Index e = 0; e < layout.edge_count(); ++e) {
@@ -265,8 +224,8 @@ TEST(Straightening, makes_straight_lines_in_the_plane)
 TEST(Straightening, can_be_ended_after_any_step)
 {
     Random random(4);
-    for (std::size_t i = 0; i < all_instances().size(); i += 4) {
-        const Instance& instance = all_instances()[i];
+    for (std::size_t i = 0; i < all_embedded_instances().size(); i += 4) {
+        const Instance& instance = all_embedded_instances()[i];
         SCOPED_TRACE(instance.name);
         Straightening straightening(even_form(instance), instance.problem.landmarks);
         double progress = 0;
@@ -286,18 +245,12 @@ TEST(Straightening, can_be_ended_after_any_step)
 
 TEST(Straightening, the_size_of_the_target_does_not_matter)
 {
-    for (std::size_t i = 0; i < all_instances().size(); i += 8) {
-        const Instance& instance = all_instances()[i];
+    for (std::size_t i = 0; i < all_embedded_instances().size(); i += 8) {
+        const Instance& instance = all_embedded_instances()[i];
         SCOPED_TRACE(instance.name);
-        const NormalForm form = straightened(instance);
+        const NormalForm form = straight_form(instance);
         for (const double scale : {0x1p-30, 0x1p40}) {
-            PolygonMesh mesh = to_polygons(*instance.problem.target);
-            for (Vec3& p : mesh.positions) {
-                p = scale * p;
-            }
-            Instance scaled = instance;
-            scaled.problem.target = std::make_shared<TriangleMesh>(mesh);
-            const NormalForm other = straightened(scaled);
+            const NormalForm other = straight_form(test::scaled(instance, scale));
             ASSERT_EQ(other.element_count(), form.element_count());
             for (Index id = 0; id < form.element_count(); ++id) {
                 EXPECT_EQ(other.element(id).parameter, form.element(id).parameter);
@@ -308,83 +261,16 @@ TEST(Straightening, the_size_of_the_target_does_not_matter)
     }
 }
 
-/// Rings of `n` vertices around caps at both ends, joined by a neck of three vertices.
-PolygonMesh hourglass(int n)
-{
-    std::vector<Vec3> positions{{0, 0, 2}, {0, 0, -2}};
-    const auto ring = [&](int count, double radius, double z) {
-        const PolygonMesh polygon = zoo::polygon(count);
-        const Index first = static_cast<Index>(positions.size());
-        for (const Vec3& p : polygon.positions) {
-            positions.emplace_back(radius * p.x(), radius * p.y(), z);
-        }
-        return first;
-    };
-    const Index top = ring(n, 1, 1);
-    const Index neck = ring(3, 0.05, 0);
-    const Index bottom = ring(n, 1, -1);
-    std::vector<std::vector<Index>> faces;
-    const auto add = [&](Index a, Index b, Index c) { faces.push_back({a, b, c}); };
-    for (int i = 0; i < n; ++i) {
-        const Index a = i;
-        const Index b = (i + 1) % n;
-        const Index s = 3 * i / n;  // the neck vertex of a
-        const Index t = i + 1 < n ? 3 * (i + 1) / n : 0;
-        add(0, top + a, top + b);
-        add(1, bottom + b, bottom + a);
-        add(top + a, neck + s, top + b);
-        add(bottom + a, bottom + b, neck + s);
-        if (s != t) {
-            add(top + b, neck + s, neck + t);
-            add(bottom + b, neck + t, neck + s);
-        }
-    }
-    return zoo::polygon_mesh(positions, faces);
-}
-
 TEST(Straightening, forty_strands_through_a_neck_of_three_vertices)
 {
-    // Each turned by a seventh: they wind around the neck together.
-    const int n = 40;
-    std::vector<Index> landmarks;
-    for (Index i = 0; i < n; ++i) {
-        landmarks.push_back(2 + i);
-    }
-    for (Index i = 0; i < n; ++i) {
-        landmarks.push_back(2 + n + 3 + (i + n / 7) % n);
-    }
-    const PolygonMesh prism = zoo::prism(n);
-    // The prism's vertices come as the lower and the upper ring, in either order.
-    PolygonMesh layout = prism;
-    const Instance upright = embedded("hourglass", layout, hourglass(n), landmarks, 3);
-    for (const double spacing : {1e-3, 0.25, 0.5}) {
-        const NormalForm form = straightened(upright, {spacing});
-        EXPECT_LE(form.total_length(), even_form(upright).total_length());
-        expect_gaps(form, spacing);
-        expect_valid(upright, form);
-    }
-}
-
-TEST(Straightening, slivers_and_coordinates_of_every_size)
-{
-    struct Case {
-        double scale;
-        double offset;
-    };
-    Random random(6);
-    for (const Case& c : {Case{1, 0}, Case{1e6, 0}, Case{1e-6, 0}, Case{1, 1e6}, Case{1e6, 1e6}}) {
-        SCOPED_TRACE(c.scale);
-        PolygonMesh target = zoo::stretched_sphere(3, {1, 0.002, 1});
-        for (Vec3& p : target.positions) {
-            p = c.scale * p + Vec3::Constant(c.offset);
+    for (const bool upside_down : {false, true}) {
+        const Instance instance = test::forty_strands_around_a_neck(1, upside_down);
+        for (const double spacing : {1e-3, 0.25, 0.5}) {
+            const NormalForm form = straight_form(instance, {.spacing = spacing});
+            EXPECT_LE(form.total_length(), even_form(instance).total_length());
+            expect_gaps(form, spacing);
+            expect_valid(instance, form);
         }
-        const PolygonMesh layout = zoo::cube();
-        const Instance instance =
-            embedded("slivers", layout, target,
-                     zoo::random_landmarks(target, layout.vertex_count(), random.bits()), 7);
-        const NormalForm form = straightened(instance);
-        EXPECT_LE(form.total_length(), even_form(instance).total_length());
-        expect_valid(instance, form);
     }
 }
 

@@ -192,6 +192,50 @@ PolygonMesh bipyramid(int n)
     return mesh;
 }
 
+PolygonMesh hourglass(int n, int rings)
+{
+    constexpr double kNeckRadius = 0.05;
+    constexpr double kStep = 0.2;
+    const double half = 0.5 * kStep * (rings - 1);
+    PolygonMesh mesh;
+    mesh.positions = {{0, 0, 2 + half}, {0, 0, -2 - half}};
+    const auto ring = [&](int count, double radius, double z) {
+        const int first = static_cast<int>(mesh.vertex_count());
+        for (int i = 0; i < count; ++i) {
+            const auto [x, y] = on_circle(i, count);
+            mesh.positions.emplace_back(radius * x, radius * y, z);
+        }
+        return first;
+    };
+    const int top = ring(n, 1, 1 + half);
+    const int bottom = ring(n, 1, -1 - half);
+    const int neck = ring(3, kNeckRadius, half);
+    for (int k = 1; k < rings; ++k) {
+        const int above = neck + 3 * (k - 1);
+        const int below = ring(3, kNeckRadius, half - kStep * k);
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            add(mesh, {above + i, below + i, below + j});
+            add(mesh, {above + i, below + j, above + j});
+        }
+    }
+    const int last = neck + 3 * (rings - 1);
+    for (int i = 0; i < n; ++i) {
+        const int j = (i + 1) % n;
+        const int s = 3 * i / n;  // of the three vertices that the cone ends at
+        const int t = 3 * j / n;
+        add(mesh, {0, top + i, top + j});
+        add(mesh, {1, bottom + j, bottom + i});
+        add(mesh, {top + i, neck + s, top + j});
+        add(mesh, {bottom + i, bottom + j, last + s});
+        if (s != t) {
+            add(mesh, {top + j, neck + s, neck + t});
+            add(mesh, {bottom + j, last + t, last + s});
+        }
+    }
+    return mesh;
+}
+
 PolygonMesh quad_grid(int n, int m)
 {
     return grid(n, m, false, false, [&](int i, int j) {

@@ -38,6 +38,9 @@ PolygonMesh prism(int n);
 PolygonMesh pyramid(int n);
 /// Two apices joined to an n-gon by 2n triangles: both have degree n.
 PolygonMesh bipyramid(int n);
+/// Two cones of n triangles each, with a cap, joined by a neck of `rings` rings of three vertices.
+/// The rims are vertices 2 .. n + 1 above and n + 2 .. 2n + 1 below, in the same order.
+PolygonMesh hourglass(int n, int rings);
 /// The convex hull of `points` random points of the unit sphere: a triangulation of the sphere
 /// with all kinds of degrees. O(points^4).
 PolygonMesh hull(int points, std::uint64_t seed);

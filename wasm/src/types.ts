@@ -256,8 +256,10 @@ export interface PathConstraint {
 
 /**
  * What a unit of length costs, by which paths are kept away from places or drawn to them. Bounds and
- * proofs hold in it as for plain length. The shapes `short` and `fair` straighten paths without
- * regard to it; `even` leaves them where they are.
+ * proofs hold in it as for plain length. In every shape, a path that runs along a sharp edge in the
+ * embedding stays on it (of several along the same edge only one, the others run beside it). Vertex
+ * costs decide on the routes alone: `short` and `fair` shorten paths on the surface within them, so
+ * that they come nearer to places where length is dear; `even` leaves them where they are.
  */
 export interface PathMetric {
     /** Per target vertex, from 0.001 to 1000, linear in between. Default: 1 everywhere. */

@@ -47,8 +47,8 @@ Options of embed
                        that makes thin patches rounder
   --boundary-edges W   free (default) or follow: along the boundary of the target, where both
                        landmarks of a layout boundary edge lie on it
-  --features X         how much less paths cost along sharp edges, 0 (default) to 0.95; with
-                       --shape even they stay there
+  --features X         how much less paths cost along sharp edges, 0 (default) to 0.95; they stay
+                       on such edges in every shape
   --vertex-costs FILE  one number per target vertex and line, 0.001 to 1000: what a unit of length
                        costs there
   --previous DIR       an earlier output for the same layout, target and landmarks (which need not
