@@ -28,6 +28,12 @@ public:
         }
         words_[word] |= std::uint64_t{1} << (i % 64);
     }
+    void erase(Index i)
+    {
+        if (i / 64 < words_.size()) {
+            words_[i / 64] &= ~(std::uint64_t{1} << (i % 64));
+        }
+    }
 
     /// Calls `visit(i)` for the indices in ascending order until it returns false; whether it never
     /// did.
@@ -36,6 +42,21 @@ public:
     {
         for (std::size_t word = 0; word < words_.size(); ++word) {
             for (std::uint64_t left = words_[word]; left != 0; left &= left - 1) {
+                if (!visit(static_cast<Index>(64 * word + std::countr_zero(left)))) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+    /// all_of() for the indices that `left_out` does not hold at the time.
+    template <typename Visit>
+    bool all_of_but(const IndexSet& left_out, Visit&& visit) const
+    {
+        for (std::size_t word = 0; word < words_.size(); ++word) {
+            const std::uint64_t kept =
+                words_[word] & (word < left_out.words_.size() ? ~left_out.words_[word] : ~0ULL);
+            for (std::uint64_t left = kept; left != 0; left &= left - 1) {
                 if (!visit(static_cast<Index>(64 * word + std::countr_zero(left)))) {
                     return false;
                 }

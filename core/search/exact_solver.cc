@@ -10,6 +10,9 @@ namespace {
 constexpr std::uint64_t kFirstExplorationShare = 4;
 constexpr std::uint64_t kMaxFirstExploration = 60'000;
 constexpr unsigned kMaxExplorations = 4;
+// Nothing is explored any more once so many classes are known: which of them cross takes memory for
+// all pairs.
+constexpr Index kMaxExploredClasses = 8192;
 // How far the first exploration of an edge goes beyond its shortest path: what the incumbent costs
 // more than the root bound, divided among the open edges, so many times; as power of two. Each
 // further one goes twice as far.
@@ -283,6 +286,7 @@ Solver::Outcome ExactSolver::explore()
         const Index edge = open_[next_open_].edge;
         Exploration& exploration = explorations_[edge];
         if (exploration.rounds == kMaxExplorations ||
+            selection_.class_count() >= kMaxExploredClasses ||
             (space_.incumbent.exists() && exploration.frontier >= base(edge) + slack)) {
             continue;
         }

@@ -146,6 +146,9 @@ void SatSolver::assign(Literal l, Clause reason)
     levels_[variable] = level();
     reasons_[variable] = reason;
     trail_.push_back(l);
+    if ((l & 1U) != 0 && is_member(variable)) {
+        excluded_members_.insert(members_[variable]);
+    }
 }
 
 /// Draws all conclusions; the clause that is violated, one literal of which is violated_, kNone if
@@ -162,10 +165,10 @@ SatSolver::Clause SatSolver::propagate()
             }
         }
         const Index variable = holding / 2;
-        if ((holding & 1U) == 0 && variable < members_.size() && members_[variable] != kNone) {
+        if ((holding & 1U) == 0 && is_member(variable)) {
             const IndexSet& excluded = exclusions_->excluded(members_[variable]);
             uncharged_ += excluded.word_count() / kWordsPerLook;
-            const bool agrees = excluded.all_of([&](Index other) {
+            const bool agrees = excluded.all_of_but(excluded_members_, [&](Index other) {
                 return other >= member_variables_.size() || member_variables_[other] == kNone ||
                        imply(negate(2 * member_variables_[other]), falsified);
             });
@@ -245,6 +248,9 @@ void SatSolver::go_back(Index to)
         const Index variable = trail_[i] / 2;
         phases_[variable] = assigns_[variable];
         assigns_[variable] = kUnassigned;
+        if ((trail_[i] & 1U) != 0 && is_member(variable)) {
+            excluded_members_.erase(members_[variable]);
+        }
         if (heap_places_[variable] == kNone) {
             heap_places_[variable] = static_cast<Index>(heap_.size());
             heap_.push_back(variable);

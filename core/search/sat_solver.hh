@@ -95,6 +95,10 @@ private:
 
     Clause store(std::span<const Literal> literals, Index block_distance);
     void assign(Literal l, Clause reason);
+    bool is_member(Index variable) const
+    {
+        return variable < members_.size() && members_[variable] != kNone;
+    }
     Clause propagate();
     bool imply(Literal l, Literal falsified);
     void go_back(Index level);
@@ -110,6 +114,7 @@ private:
     const Exclusions* exclusions_ = nullptr;
     std::vector<Index> members_;           // per variable, as far as needed; kNone
     std::vector<Index> member_variables_;  // per member; kNone
+    IndexSet excluded_members_;            // those whose variables do not hold
 
     std::vector<Index> arena_;
     std::vector<Clause> learned_;

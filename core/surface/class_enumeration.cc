@@ -78,6 +78,10 @@ ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions,
             return Outcome::running;
         }
         queue_.pop();
+        if (!queue_.empty()) {
+            // Most likely the next to be expanded: its darts are far away in memory.
+            graph.prefetch_darts(queue_.top().node);
+        }
         ++expansion_count_;
         close(current);
         const Label label = labels_[current];
@@ -98,9 +102,12 @@ ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions,
             continue;
         }
         const Index end = graph.first_dart(node + 1);
+        const Index back = graph.twin(label.parent_dart);  // leads to the label before
         if (!strands_.is_touched(node)) {
             for (Index d = graph.first_dart(node); d < end; ++d) {
-                relax(current, d, 0, 0);
+                if (d != back) {
+                    relax(current, d, 0, 0);
+                }
             }
             continue;
         }
@@ -171,7 +178,7 @@ void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index str
     }
     const bool goes_on = from_label != kNone && labels_[from_label].word == word;
     labels_[found].entry = goes_on ? labels_[from_label].entry : found;
-    queue_.push({estimate, along.head == goal_ ? found | kIsGoal : found});
+    queue_.push({estimate, along.head == goal_ ? found | kIsGoal : found, along.head});
 }
 
 /// No shorter walk will come to this label. Jumps are as long as those of the skew-binary numbers

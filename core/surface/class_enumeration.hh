@@ -73,6 +73,7 @@ private:
     struct QueueItem {
         Length estimate;
         Index label;
+        Index node;
         friend bool operator<(const QueueItem& a, const QueueItem& b)
         {
             return a.estimate != b.estimate ? a.estimate < b.estimate : a.label < b.label;

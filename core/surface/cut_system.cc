@@ -169,7 +169,7 @@ CutSystem::CutSystem(const PathGraph& graph, std::span<const Index> landmark_nod
     : graph_(graph),
       letters_(landmark_nodes.size(), 0),
       first_darts_(landmark_nodes.size(), kNone),
-      is_passed_(graph.node_count(), false)
+      crosses_(graph.dart_count(), false)
 {
     const std::vector<Index> holes = nodes_of_holes(graph, landmark_nodes);
     const Index root_node = root == kNone ? holes.front() : landmark_nodes[root];
@@ -292,17 +292,26 @@ CutSystem::CutSystem(const PathGraph& graph, std::span<const Index> landmark_nod
         arcs[node] = passed.arcs;
         passed.arcs.erase(passed.arcs.begin(),
                           passed.arcs.begin() + static_cast<std::ptrdiff_t>(own.size()));
-        is_passed_[node] = true;
+        for (Index d = first; d < first + degree; ++d) {
+            if (passed.crossed[d - first] > 0) {
+                crosses_[d] = true;
+                crosses_[graph.twin(d)] = true;
+            }
+        }
         passed_.emplace(node, std::move(passed));
+    }
+    for (const auto& [dart, letter] : changes_) {
+        crosses_[dart] = true;
     }
 }
 
 std::span<const Words::Letter> CutSystem::crossed(Index node, Index dart) const
 {
-    if (!is_passed_[node]) {
+    const auto found = passed_.find(node);
+    if (found == passed_.end()) {
         return {};
     }
-    const Passed& passed = passed_.find(node)->second;
+    const Passed& passed = found->second;
     return std::span(passed.arcs).first(passed.crossed[dart - graph_.first_dart(node)]);
 }
 

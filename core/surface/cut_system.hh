@@ -69,12 +69,12 @@ public:
     template <typename Function>
     void for_each_crossing(Index dart, const Function& function) const
     {
+        if (!crosses_[dart]) {
+            return;
+        }
         const Index twin = graph_.twin(dart);
         const Index head = graph_.head(dart);
         const Index tail = graph_.head(twin);
-        if (!is_passed_[tail] && !is_passed_[head]) {
-            return;
-        }
         for (const Words::Letter arc : crossed(tail, dart)) {
             function(arc);
         }
@@ -107,10 +107,10 @@ private:
     const PathGraph& graph_;
     std::vector<Words::Letter> letters_;        // per layout vertex
     std::vector<Index> first_darts_;            // likewise
-    std::vector<bool> is_passed_;               // per node
+    std::vector<bool> crosses_;                 // per dart, whether it crosses anything
     std::unordered_map<Index, Passed> passed_;  // by node; looked up, never iterated
     /// Edges that arcs from the root back to it cross at their middle: by dart, the letter of going
-    /// along it. Looked up, never iterated.
+    /// along it. Their order does not matter.
     std::unordered_map<Index, Words::Letter> changes_;
 };
 

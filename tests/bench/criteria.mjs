@@ -28,7 +28,8 @@ const proved =
 /** From the start of reading to a checked embedding, without improving the first one. */
 const firstValid = ({ wasm }) =>
     wasm.valid ? wasm.cpu.load + wasm.cpu.first + wasm.cpu.total - wasm.cpu.end : Infinity;
-const ratio = ({ native, wasm }) => wasm.cpu.total / native.cpu.total;
+/** Short jobs in WebAssembly as the second of an instance: see embed_wasm.mjs. */
+export const ratio = ({ native, wasm }) => (wasm.cpu.again ?? wasm.cpu.total) / native.cpu.total;
 
 export const criteria = [
     {
@@ -107,8 +108,8 @@ export const criteria = [
         unit: "s",
     },
     {
-        // Below that, starting and tiering up are most of what is measured.
-        title: "WASM relative to native, from 0.5 s on",
+        // Below that, noise is much of what is measured.
+        title: "WASM, compiled, relative to native, from 0.5 s on",
         needs: ["native", "wasm"],
         of: ({ native }) => native.cpu.total >= 0.5,
         ofResult: true,

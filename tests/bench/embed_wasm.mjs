@@ -25,12 +25,23 @@ const { landmarks } =
         : await session.setLandmarks(file(landmarksPath));
 const loaded = threadSeconds();
 const loadedMegabytes = moduleMegabytes();
-const result = await session.solve({
+const options = {
     workLimit: Number(work),
     ...(algorithm === undefined ? {} : { algorithm }),
     ...(gap === undefined ? {} : { gap: Number(gap) }),
-});
+};
+const result = await session.solve(options);
 const solved = threadSeconds();
+const peakMegabytes = moduleMegabytes();
+
+// Of a short first job, much of the time goes by before the engine has compiled what is used most.
+const longJob = 5;
+let again = null;
+if (solved - loaded < longJob) {
+    const start = threadSeconds();
+    await session.solve(options);
+    again = threadSeconds() - start;
+}
 
 // Events have seconds by the clock, of which CPU seconds are a share, taken to be the same all the
 // time.
@@ -67,11 +78,12 @@ console.log(
             best: cpuAt(incumbents.at(-1)),
             end: cpuAt(phaseEnd),
             total: solved - loaded,
+            again,
             process: processSeconds(),
         },
         memory: {
             load: loadedMegabytes,
-            peak: moduleMegabytes(),
+            peak: peakMegabytes,
             process: process.resourceUsage().maxRSS / 1024,
         },
         history: result.events

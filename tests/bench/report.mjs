@@ -3,6 +3,7 @@ import { existsSync, readFileSync } from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { output, root } from "../../.dev/run.mjs";
+import { ratio } from "./criteria.mjs";
 
 const seconds = (value) => value?.toFixed(2) ?? "-";
 const megabytes = (value) => value?.toFixed(0) ?? "-";
@@ -25,6 +26,7 @@ const columns = [
     ["expansions", 10, ({ counters }) => count(counters.expansions)],
     ["search MB", 9, ({ memory }) => megabytes(memory.search)],
     ["MB", 5, ({ memory }) => megabytes(memory.peak)],
+    ["again", 6, ({ cpu }) => seconds(cpu.again)],
     ["ratio", 5, ({ ratio }) => seconds(ratio)],
 ];
 
@@ -32,8 +34,9 @@ const explanation = [
     "best, end: CPU seconds from the start of the job to its best embedding and to the end of the",
     "search; job: to the checked result; load: reading before that. Native: of the process; WASM:",
     "of the thread that runs it, best and end in proportion to the clock. search MB: peak of the",
-    "search over what was loaded; MB: peak of the process, for WASM of the module's memory. ratio:",
-    "job in WASM to job natively.",
+    "search over what was loaded; MB: peak of the process, for WASM of the module's memory. again:",
+    "the same job once more in the same WASM instance, where it is short and the engine was still",
+    "compiling the first time. ratio: of that, or of the job, to the job natively.",
 ];
 
 export function describeMachine(builds) {
@@ -76,7 +79,7 @@ function row(cells) {
 
 /** A row for each build that was run. */
 export function printResult({ name, native, wasm }) {
-    const ratio = native?.cpu && wasm?.cpu ? wasm.cpu.total / native.cpu.total : undefined;
+    const relative = native?.cpu && wasm?.cpu ? ratio({ native, wasm }) : undefined;
     let first = true;
     for (const [where, result] of Object.entries({ native, wasm })) {
         if (result !== undefined) {
@@ -85,7 +88,7 @@ export function printResult({ name, native, wasm }) {
                 result.error === undefined
                     ? row(
                           columns.map(([, , cell]) =>
-                              cell({ ...line, ratio: where === "wasm" ? ratio : undefined }),
+                              cell({ ...line, ratio: where === "wasm" ? relative : undefined }),
                           ),
                       )
                     : `${row([line.name, where])} ${result.error}`,
