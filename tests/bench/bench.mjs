@@ -10,6 +10,7 @@ import { ensureSystemPackages } from "../../.dev/system.mjs";
 import { compare, differences, machineIndependent, update } from "./baseline.mjs";
 import { judge, judgeCancel } from "./criteria.mjs";
 import { filesOf, instances } from "./instances.mjs";
+import { runsOf } from "./process.mjs";
 import { describeMachine, printHeader, printResult, printVerdict } from "./report.mjs";
 
 /**
@@ -57,7 +58,7 @@ await main(async () => {
         const { name } = instance;
         const result = { name, instance };
         for (const build of builds) {
-            result[build] = measure(programs[build], files, workLimit, options);
+            result[build] = measure(build, files, workLimit, options);
         }
         printResult(result);
         results.push(result);
@@ -127,8 +128,22 @@ function readOptions() {
     return { ...values, limit };
 }
 
+/** The quickest of some runs of one instance in one build; { error } where one failed. */
+function measure(build, files, workLimit, options) {
+    const first = measureOnce(programs[build], files, workLimit, options);
+    const results = [first];
+    // The WASM program does this itself.
+    for (let run = 1; build === "native" && run < runsOf(first.cpu?.total); ++run) {
+        results.push(measureOnce(programs[build], files, workLimit, options));
+    }
+    return (
+        results.find(({ error }) => error !== undefined) ??
+        results.reduce((a, b) => (b.cpu.total < a.cpu.total ? b : a))
+    );
+}
+
 /** Runs one instance in one build; { error } where that failed. */
-function measure([program, ...first], { layout, target, landmarks }, workLimit, options) {
+function measureOnce([program, ...first], { layout, target, landmarks }, workLimit, options) {
     const { algorithm, gap } = options;
     const args = [...first, layout, target, landmarks, String(workLimit), algorithm, gap];
     // Only for what hangs: the limit on work ends it long before.

@@ -36,7 +36,8 @@ const explanation = [
     "of the thread that runs it, best and end in proportion to the clock. search MB: peak of the",
     "search over what was loaded; MB: peak of the process, for WASM of the module's memory. again:",
     "the same job once more in the same WASM instance, where it is short and the engine was still",
-    "compiling the first time. ratio: of that, or of the job, to the job natively.",
+    "compiling the first time. ratio: of that, or of the job, to the job natively. Short jobs run",
+    "up to three times, of which the quickest counts.",
 ];
 
 export function describeMachine(builds) {

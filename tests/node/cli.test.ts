@@ -328,6 +328,17 @@ describe("usage", () => {
         })(),
     );
 
+    test.each([
+        ["--fast", ["--fast"], /^there is no option --fast here;/],
+        ["no_value_at_the_end", ["--gap"], /^--gap needs a value;/],
+        ["another_option_as_value", ["--gap", "--json"], /^--gap needs a value;/],
+        ["dash_before_a_value", ["--gap", "-1"], /one that begins with a dash is given as --gap=/],
+        ["value_of_a_flag", ["--json=3"], /^--json takes no value;/],
+    ])("%s_is_named_in_the_error", async (_, args, sentence) => {
+        const { stdout } = await run(["--json", "embed", "layout.obj", "target.obj", ...args]);
+        expect(errorOf(stdout).message).toMatch(sentence);
+    });
+
     test("a_file_that_may_not_be_read_is_refused", async (context) => {
         context.skip(process.getuid?.() === 0, "root may read every file");
         await withInputs(async (cwd) => {

@@ -469,6 +469,19 @@ function parsed<T extends ParseArgsConfig>(config: T): ReturnType<typeof parseAr
     } catch (reason) {
         // Node adds advice of several sentences and lines.
         const message = reason instanceof Error ? reason.message : String(reason);
+        const option = /'(?:-\w, )?(--?[\w-]+)/.exec(message)?.[1] ?? "an option";
+        switch ((reason as { code?: unknown }).code) {
+            case "ERR_PARSE_ARGS_UNKNOWN_OPTION":
+                throw javaScriptError("usage", `there is no option ${option} here`);
+            case "ERR_PARSE_ARGS_INVALID_OPTION_VALUE":
+                throw javaScriptError(
+                    "usage",
+                    message.includes("not take")
+                        ? `${option} takes no value`
+                        : `${option} needs a value; one that begins with a dash is given as ${option}=VALUE`,
+                );
+            default:
+        }
         const sentence = message.split(/\.\s|\n/)[0] ?? message;
         throw javaScriptError("usage", sentence.replace(/\.$/, ""));
     }
