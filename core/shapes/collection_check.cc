@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "apps/embed_job.hh"
 #include "base/random.hh"
 #include "layout/template_layout.hh"
+#include "patches/patch_shape.hh"
 
 namespace layout_embedding::shapes {
 
@@ -27,6 +29,8 @@ struct Member {
 struct Totals {
     Index pairs = 0;
     Index embedded = 0;
+    Index in_every_shape = 0;
+    double smallest_angle = 60;  // in degrees
     Index hard = 0;
     Index very_hard = 0;
     Index proved = 0;
@@ -42,7 +46,7 @@ struct Totals {
 // Enough for good embeddings of inputs that are wrong; proofs are not what is asked for there.
 constexpr std::uint64_t kWork = 2'000'000;
 
-EmbedResult solve(const EmbeddingProblem& problem, Algorithm algorithm)
+EmbedJob solved(const EmbeddingProblem& problem, Algorithm algorithm)
 {
     EmbedOptions options;
     if (algorithm == Algorithm::branch_and_bound) {
@@ -53,7 +57,43 @@ EmbedResult solve(const EmbeddingProblem& problem, Algorithm algorithm)
     EmbedJob job(problem, options);
     while (job.step()) {
     }
-    return job.result();
+    return job;
+}
+
+EmbedResult solve(const EmbeddingProblem& problem, Algorithm algorithm)
+{
+    return solved(problem, algorithm).result();
+}
+
+/// Realises an embedding in all path shapes, each through the checker, and `short` not longer than
+/// `even`; what goes wrong is printed.
+bool realise_in_every_shape(EmbedJob& job, double& smallest_angle)
+{
+    bool all = true;
+    for (const auto& [shape, name] :
+         {std::pair{PathShape::even, "even"}, std::pair{PathShape::shortened, "short"},
+          std::pair{PathShape::fair, "fair"}}) {
+        job.reshape(shape);
+        while (job.step()) {
+        }
+        const EmbedResult& result = job.result();
+        if (!result.refined) {
+            std::printf("    %s: %s\n", name, job.error().message.c_str());
+            return false;
+        }
+        smallest_angle = std::min(smallest_angle, result.quality.smallest_angle);
+        double length = 0;
+        double even_length = 0;
+        for (std::size_t e = 0; e < result.refined->chains.size(); ++e) {
+            length += chain_length(*result.refined, result.refined->chains[e]);
+            even_length += result.even_lengths[e];
+        }
+        if (shape == PathShape::shortened && length > even_length) {
+            std::printf("    short: longer than even, %g of %g\n", length, even_length);
+            all = false;
+        }
+    }
+    return all;
 }
 
 bool says(const EmbedResult& result, LandmarkDoubt::Kind kind)
@@ -125,7 +165,8 @@ void check_pair(const ShapeClass& shape_class, Index from, Index to,
         std::printf("%s\n", problem.error().message.c_str());
         return;
     }
-    const EmbedResult result = solve(*problem, Algorithm::exact);
+    EmbedJob job = solved(*problem, Algorithm::exact);
+    const EmbedResult result = job.result();
     totals.seconds.push_back(result.cpu_seconds);
     double best = result.cost;
     std::vector<double> heuristics;
@@ -153,6 +194,7 @@ void check_pair(const ShapeClass& shape_class, Index from, Index to,
     for (const LandmarkDoubt& doubt : result.doubts) {
         std::printf("    false alarm: %s\n", doubt.message.c_str());
     }
+    totals.in_every_shape += realise_in_every_shape(job, totals.smallest_angle) ? 1 : 0;
     if (options.doubts) {
         Random random(1000 * from + to);
         test_doubts(*problem, templates[from], result.cost, random, totals);
@@ -199,6 +241,8 @@ bool check_collection(const std::vector<const ShapeClass*>& classes,
         "embedding, on %u more than %.0f %%; %u false alarms about landmarks\n",
         totals.embedded, totals.pairs, totals.hard, 100 * (kClearlyAbove - 1), totals.very_hard,
         100 * (kFarAbove - 1), totals.false_alarms);
+    std::printf("%u valid in every path shape, with a smallest angle of %.2f degrees\n",
+                totals.in_every_shape, totals.smallest_angle);
     if (!totals.seconds.empty()) {
         std::sort(totals.seconds.begin(), totals.seconds.end());
         const std::size_t count = totals.seconds.size();
@@ -212,7 +256,7 @@ bool check_collection(const std::vector<const ShapeClass*>& classes,
             totals.mirrored, totals.mirrored_said, totals.exchanged, totals.exchanged_said,
             totals.wrong_pair_said);
     }
-    return totals.embedded == totals.pairs;
+    return totals.embedded == totals.pairs && totals.in_every_shape == totals.pairs;
 }
 
 }  // namespace layout_embedding::shapes

@@ -145,7 +145,8 @@ TEST_P(ShapesOfClass, have_the_declared_topology_and_corresponding_landmarks)
     expect_left_landmarks_left_of_right_ones(collection);
 }
 
-TEST_P(ShapesOfClass, have_a_template_whose_embedding_in_another_member_is_proved)
+TEST_P(ShapesOfClass,
+       have_a_template_whose_embedding_in_another_member_is_proved_and_valid_in_shapes)
 {
     const ShapeClass& shape_class = *find_shape_class(GetParam());
     const auto source = make_shape(shape_class, 0, {.vertices = kVertices});
@@ -161,13 +162,22 @@ TEST_P(ShapesOfClass, have_a_template_whose_embedding_in_another_member_is_prove
     const EmbedResult& result = job.result();
     ASSERT_TRUE(result.refined) << job.error().message;
     test::expect_strands(job.problem(), *job.graph(), result.weak);
-    test::expect_valid(job.problem(), *job.graph(), result.weak, *result.refined);
     EXPECT_EQ(result.doubts.size(), 0U);
     // With two or three handles there are more classes than the default limit lets it look at.
     if (shape_class.genus < 2) {
         EXPECT_EQ(result.status, EmbedStatus::optimal);
     } else {
         EXPECT_LT(result.gap, 0.1);
+    }
+    for (const PathShape path_shape : {PathShape::shortened, PathShape::even, PathShape::fair}) {
+        if (path_shape != PathShape::shortened) {
+            ASSERT_TRUE(job.reshape(path_shape));
+            while (job.step()) {
+            }
+        }
+        ASSERT_TRUE(result.refined) << job.error().message;
+        test::expect_valid(job.problem(), *job.graph(), result.weak, *result.refined);
+        EXPECT_GT(result.quality.smallest_area, 0);
     }
 }
 
