@@ -124,8 +124,8 @@ function bumpySphere(family, name, n, landmarks) {
     };
 }
 
-/** Growing targets: 980 triangles to a million. */
-const meshSizes = [7, 14, 28, 56, 112, 224].map((n) =>
+/** Growing targets: 980 triangles to a million, and one of a hundred thousand. */
+const meshSizes = [7, 14, 28, 56, 71, 112, 224].map((n) =>
     bumpySphere("mesh size", `mesh ${(20 * n * n).toString()}`, n, 20),
 );
 /** Growing layouts on 20 480 triangles. */
