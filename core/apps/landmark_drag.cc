@@ -116,7 +116,12 @@ std::optional<LandmarkDrag::Attempt> LandmarkDrag::embed(const EmbeddingProblem&
     Attempt attempt;
 
     const auto find = [&](Index edge) {
-        search.begin(edge);
+        // Towards the end that stays where it is, whose distance field is kept.
+        if (layout.head(2 * edge) == layout_vertex_) {
+            search.begin_backwards(edge);
+        } else {
+            search.begin(edge);
+        }
         const Length alone = search.lower_bound();
         const std::uint64_t spent = search.expansion_count();
         if (spent >= kDragExpansions ||

@@ -17,26 +17,32 @@ CutSurfaceSearch::CutSurfaceSearch(const Strands& strands, DistanceFields& field
 void CutSurfaceSearch::begin(Index layout_edge, Length limit)
 {
     weights_ = {};
-    start(layout_edge, limit);
+    start(2 * layout_edge, limit);
+}
+
+void CutSurfaceSearch::begin_backwards(Index layout_edge)
+{
+    weights_ = {};
+    start(2 * layout_edge + 1, kInfiniteLength);
 }
 
 void CutSurfaceSearch::begin_weighted(Index layout_edge, std::span<const NodeWeight> weights)
 {
     weights_ = weights;
-    start(layout_edge, kInfiniteLength);
+    start(2 * layout_edge, kInfiniteLength);
 }
 
-void CutSurfaceSearch::start(Index layout_edge, Length limit)
+void CutSurfaceSearch::start(Index layout_halfedge, Length limit)
 {
     const Layout& layout = strands_.layout();
     ++search_count_;
-    layout_edge_ = layout_edge;
+    layout_halfedge_ = layout_halfedge;
     limit_ = limit;
     skipped_ = kInfiniteLength;
     met_.clear();
-    start_ = strands_.landmark_node(layout.tail(2 * layout_edge));
-    goal_ = strands_.landmark_node(layout.head(2 * layout_edge));
-    goal_sector_ = strands_.sector(2 * layout_edge + 1);
+    start_ = strands_.landmark_node(layout.tail(layout_halfedge));
+    goal_ = strands_.landmark_node(layout.head(layout_halfedge));
+    goal_sector_ = strands_.sector(Layout::twin(layout_halfedge));
     goal_distance_ = kInfiniteLength;
     goal_dart_ = kNone;
     goal_state_ = kNone;
@@ -54,7 +60,7 @@ void CutSurfaceSearch::start(Index layout_edge, Length limit)
         std::fill(met_numbers_.begin(), met_numbers_.end(), 0);
         number_ = 1;
     }
-    strands_.for_each_way_out(2 * layout_edge, [&](Index dart, Index slot, Index strands) {
+    strands_.for_each_way_out(layout_halfedge, [&](Index dart, Index slot, Index strands) {
         weights_.empty() ? relax<false>(kNone, start_, dart, slot, strands, 0)
                          : relax<true>(kNone, start_, dart, slot, strands, 0);
     });
@@ -186,8 +192,8 @@ std::vector<Index> CutSurfaceSearch::blockers() const
     // The strands at both ends belong to it although no expanded region may touch them: a cheaper
     // walk may be wrong in the cyclic order only.
     std::vector<Index> blockers = met_;
-    strands_.append_sector_neighbours(2 * layout_edge_, blockers);
-    strands_.append_sector_neighbours(2 * layout_edge_ + 1, blockers);
+    strands_.append_sector_neighbours(layout_halfedge_, blockers);
+    strands_.append_sector_neighbours(Layout::twin(layout_halfedge_), blockers);
     std::sort(blockers.begin(), blockers.end());
     blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
     return blockers;
@@ -215,7 +221,13 @@ void CutSurfaceSearch::collect_walk()
         const Index slot = strands_.strand_count(node, twin) - slot_here;
         state = strands_.state(tail, strands_.region(tail, dart, slot));
     }
-    std::reverse(darts_.begin(), darts_.end());
+    if (layout_halfedge_ % 2 == 1) {
+        // From its head: the twins in the order in which they were collected lead there.
+        std::transform(darts_.begin(), darts_.end(), darts_.begin(),
+                       [&](Index dart) { return graph.twin(dart); });
+    } else {
+        std::reverse(darts_.begin(), darts_.end());
+    }
 }
 
 }  // namespace layout_embedding

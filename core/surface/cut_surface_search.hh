@@ -40,6 +40,9 @@ public:
     /// search is over. Walks of length `limit` or more do not matter.
     void begin(Index layout_edge, Length limit = kInfiniteLength);
 
+    /// Likewise from the other end: the same walk, guided by the distance field of tail(2e).
+    void begin_backwards(Index layout_edge);
+
     /// Likewise for the walk that is shortest in a metric of its own: see weighted_length().
     /// `weights` has one weight per node and stays as it is until the search is over. Without a
     /// distance field to guide it.
@@ -77,7 +80,8 @@ private:
         }
     };
 
-    void start(Index layout_edge, Length limit);
+    /// From tail(h) to head(h).
+    void start(Index layout_halfedge, Length limit);
     template <bool kWeighted>
     void expand(Index state);
     template <bool kWeighted>
@@ -99,7 +103,7 @@ private:
     Length lower_bound_ = 0;
     Length limit_ = kInfiniteLength;
     Length skipped_ = kInfiniteLength;  // smallest estimate at or above the limit
-    Index layout_edge_ = kNone;
+    Index layout_halfedge_ = kNone;
     std::vector<Index> met_;                  // embedded edges that border expanded regions
     std::vector<std::uint32_t> met_numbers_;  // per layout edge: the search that met it last
     std::vector<Index> bordering_;            // scratch

@@ -245,6 +245,33 @@ TEST(ShortestWalk, no_shorter_walk_is_a_strand_with_any_lanes)
     EXPECT_GT(refused_walks, 1000);
 }
 
+TEST(ShortestWalk, is_the_same_from_either_end)
+{
+    Random random(53);
+    int found = 0;
+    int blocked = 0;
+    for (int round = 0; round < 60; ++round) {
+        const EmbeddingProblem problem = tiny_problem(random);
+        test::SearchGround ground(problem, random.bits());
+        for (const Index e : test::random_order(problem.layout->edge_count(), random)) {
+            ground.search.begin(e);
+            const Outcome outcome = ground.search.run();
+            const std::vector<Index> darts = ground.search.darts();
+            const Length cost = ground.search.cost();
+            ground.search.begin_backwards(e);
+            ASSERT_EQ(ground.search.run(), outcome);
+            EXPECT_EQ(ground.search.darts(), darts);
+            EXPECT_EQ(ground.search.cost(), cost);
+            ++(outcome == Outcome::found ? found : blocked);
+            if (outcome == Outcome::found) {
+                ASSERT_TRUE(ground.strands.insert(e, darts));
+            }
+        }
+    }
+    EXPECT_GT(found, 300);
+    EXPECT_GT(blocked, 20);
+}
+
 TEST(ShortestWalk, a_blocked_edge_has_no_strand_of_a_length_far_beyond_the_unconstrained_one)
 {
     Random random(52);
