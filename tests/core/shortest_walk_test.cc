@@ -250,7 +250,7 @@ TEST(ShortestWalk, is_the_same_from_either_end)
     Random random(53);
     int found = 0;
     int blocked = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 100; ++round) {
         const EmbeddingProblem problem = tiny_problem(random);
         test::SearchGround ground(problem, random.bits());
         for (const Index e : test::random_order(problem.layout->edge_count(), random)) {

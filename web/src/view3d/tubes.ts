@@ -16,6 +16,11 @@ import type { ViewTheme } from "./colors.js";
 const inkRadius = 1.7;
 const markRadius = 3.1;
 const sides = 8;
+/** Of the corners of a ring. */
+const directions = Array.from({ length: sides }, (_, side) => ({
+    cos: Math.cos((2 * Math.PI * side) / sides),
+    sin: Math.sin((2 * Math.PI * side) / sides),
+}));
 
 /**
  * Paths as round tubes around their polylines. Half of a tube stands out of the surface that its
@@ -160,14 +165,19 @@ function tubes(paths: Polylines, chosen: (layoutEdge: number) => boolean): Buffe
             u.normalize();
             v.crossVectors(tangent, u);
             for (let side = 0; side < sides; ++side) {
-                const angle = (2 * Math.PI * side) / sides;
-                out.copy(u).multiplyScalar(Math.cos(angle)).addScaledVector(v, Math.sin(angle));
-                here.toArray(position, 3 * vertex);
-                out.toArray(normal, 3 * vertex);
+                const { cos, sin } = directions[side]!;
+                position[3 * vertex] = here.x;
+                position[3 * vertex + 1] = here.y;
+                position[3 * vertex + 2] = here.z;
+                normal[3 * vertex] = cos * u.x + sin * v.x;
+                normal[3 * vertex + 1] = cos * u.y + sin * v.y;
+                normal[3 * vertex + 2] = cos * u.z + sin * v.z;
                 if (i + 1 < end) {
-                    const next = (side + 1) % sides;
-                    const [a, b] = [vertex, vertex - side + next];
-                    index.set([a, b, a + sides, b, b + sides, a + sides], corner);
+                    const b = vertex - side + ((side + 1) % sides);
+                    index[corner] = vertex;
+                    index[corner + 1] = index[corner + 3] = b;
+                    index[corner + 2] = index[corner + 5] = vertex + sides;
+                    index[corner + 4] = b + sides;
                     corner += 6;
                 }
                 ++vertex;
