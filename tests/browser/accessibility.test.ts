@@ -1,7 +1,7 @@
 import axe from "axe-core";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { solved, textFile, untilStatus, useBrowser, usePage } from "./browser.js";
+import { solved, textFile, untilSolved, untilStatus, useBrowser, usePage } from "./browser.js";
 
 const opened = usePage({ link: "shape=vase/tulip", colorScheme: "light" });
 const open = useBrowser();
@@ -89,6 +89,81 @@ test("every_control_has_a_name", async () => {
             /^\s*- (button|checkbox|combobox|spinbutton|slider|link|textbox)(?! ")/.test(line),
         );
     expect(nameless).toEqual([]);
+});
+
+/** Roles that tell nobody anything without a name. */
+const named = new Set(
+    "application button checkbox combobox dialog figure image link progressbar region slider spinbutton tab tablist tabpanel textbox".split(
+        " ",
+    ),
+);
+
+/** What the browser hands to a screen reader of a role in `named`, but without a name. */
+async function namelessNodes(page: Page): Promise<string[]> {
+    const client = await page.context().newCDPSession(page);
+    const { nodes } = await client.send("Accessibility.getFullAXTree");
+    await client.detach();
+    const seen = nodes.filter(({ ignored, role }) => !ignored && named.has(String(role?.value)));
+    expect(seen.length).toBeGreaterThan(30);
+    return seen
+        .filter(({ name }) => !name?.value)
+        .map(({ role, nodeId }) => `${String(role?.value)} ${nodeId}`);
+}
+
+/** Has all live regions that are shown collect what they say; returns what ends that. */
+async function listen(page: Page): Promise<() => Promise<string[]>> {
+    await page.evaluate(() => {
+        const said: string[] = [];
+        Object.assign(globalThis, { said });
+        for (const region of document.querySelectorAll<HTMLElement>("[role=status], [aria-live]"))
+            new MutationObserver(() => {
+                const text = region.textContent.trim();
+                if (text !== "" && region.checkVisibility()) said.push(text);
+            }).observe(region, { childList: true, characterData: true, subtree: true });
+    });
+    return () => page.evaluate(() => (globalThis as unknown as { said: string[] }).said.splice(0));
+}
+
+test("a_screen_reader_gets_names_for_everything_and_each_message_once", async () => {
+    const { page, complaints, close } = await open({ link: "shape=vase/tulip" });
+    await untilStatus(page, solved);
+    const said = await listen(page);
+    // An edit says what it did and what came of it, without what holds for a moment only.
+    await page.focus("#features");
+    await page.keyboard.press("End");
+    await untilSolved(page);
+    const edit = await said();
+    expect(edit[0]).toBe("Along sharp edges paths cost up to 95 % less.");
+    expect(edit.at(-1)).toMatch(solved);
+    expect(edit.filter((text) => /^(Ready|Done)/.test(text))).toEqual([]);
+    // Comparing names each heuristic, says how it ended, and does not say the status again.
+    await page.keyboard.press("c");
+    await page.locator("#contenders tr").nth(3).waitFor();
+    const compared = await said();
+    expect(compared.filter((text) => text.startsWith("Trying "))).toHaveLength(4);
+    expect(compared.filter((text) => text.startsWith("The longest of 4 heuristics"))).toHaveLength(
+        1,
+    );
+    expect(compared.filter((text) => solved.test(text))).toEqual([]);
+    await openAllDetails(page);
+    expect(await namelessNodes(page)).toEqual([]);
+    await page.click("#tab-quads");
+    await page.locator("#loop-rows input").first().waitFor();
+    expect(await namelessNodes(page)).toEqual([]);
+    await page.click("#tab-map");
+    await page.click("#map-shapes button");
+    await page.locator("#map-figures dd").first().waitFor();
+    expect(await namelessNodes(page)).toEqual([]);
+    await said();
+    await page.click("#map-stop");
+    await page.waitForFunction(() =>
+        /partly optimised/.test(document.getElementById("map-status")?.textContent ?? ""),
+    );
+    expect((await said()).some((text) => /^The partly optimised map is there/.test(text))).toBe(
+        true,
+    );
+    expect(complaints).toEqual([]);
+    await close();
 });
 
 test("on_a_phone_axe_has_no_objections_and_nothing_is_wider_than_the_screen", async () => {

@@ -14,6 +14,7 @@ import { Batch, pairFiles } from "./batch.js";
 import {
     algorithmWords,
     causeAndAdvice,
+    comparisonWords,
     pathSettingWords,
     reshapeWords,
     titleOf,
@@ -295,7 +296,11 @@ export class Actions {
             }
             const costs = contenders.map(({ result }) => (result.refined ? result.cost : -1));
             const shown = Math.max(...costs) > 0 ? costs.indexOf(Math.max(...costs)) : null;
-            this.store.update({ comparison: { contenders, shown } });
+            const { result: optimum } = this.store.get();
+            this.store.update({
+                comparison: { contenders, shown },
+                announcement: optimum ? comparisonWords(contenders, shown, optimum) : "",
+            });
         });
     }
 

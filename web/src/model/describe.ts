@@ -7,7 +7,7 @@ import type {
     PathShape,
 } from "layout-embedding";
 import { conflictsOf, edgesInConflict } from "./candidates.js";
-import type { PathSettings } from "./state.js";
+import type { Contender, PathSettings } from "./state.js";
 
 const numbers = new Intl.NumberFormat("en", { maximumSignificantDigits: 6 });
 const counts = new Intl.NumberFormat("en");
@@ -33,6 +33,21 @@ export const formatGap = (gap: number): string =>
 /** How much longer or shorter something is than before, with its sign. */
 export const formatChange = (before: number, now: number): string =>
     `${now >= before ? "+" : "−"}${formatGap(Math.abs(now - before) / before)}`;
+
+/** What comparing with the heuristics showed. */
+export function comparisonWords(
+    contenders: readonly Contender[],
+    shown: number | null,
+    { cost }: EmbedResult,
+): string {
+    const worst = shown === null ? null : contenders[shown];
+    if (!worst?.result) return "All heuristics ended in a dead end.";
+    const longer =
+        worst.result.cost > cost
+            ? `is ${formatGap((worst.result.cost - cost) / cost)} longer than the result`
+            : "is as long as the result";
+    return `The longest of ${contenders.length} heuristics, ${algorithmWords(worst.algorithm)}, ${longer}.`;
+}
 
 export const formatSeconds = (seconds: number): string =>
     `${seconds.toFixed(seconds < 10 ? 2 : 1)} s`;

@@ -136,7 +136,12 @@ export class Solving {
         this.store.update({
             activity: {
                 ...current,
-                phase: improving ? improvingWords : phaseWords[phase],
+                phase:
+                    phase === "done"
+                        ? current.phase
+                        : improving
+                          ? improvingWords
+                          : phaseWords[phase],
                 progress: improving ? null : progress,
                 cost,
                 lowerBound,

@@ -7,6 +7,9 @@ import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { element, setText } from "./dom.js";
 
+/** Milliseconds in which a solve begins after an edit, if one does. */
+const moment = 60;
+
 /** The best first. */
 const algorithms = [...algorithmNames].reverse();
 
@@ -45,7 +48,8 @@ export function solvePanel(store: Store<AppState>, actions: Actions): void {
         },
     );
 
-    // Phases and outcomes are announced, never figures that change all the time.
+    // Phases and outcomes are announced, each once, never figures that change all the time.
+    let waiting: ReturnType<typeof setTimeout> | undefined;
     store.watch(
         (state) => [
             state.activity?.phase,
@@ -56,8 +60,12 @@ export function solvePanel(store: Store<AppState>, actions: Actions): void {
         ],
         () => {
             const { activity, result } = store.get();
-            if (activity) return setText("status", "");
-            setText("status", result ? statusSentence(store.get()) : waitingSentence(store.get()));
+            clearTimeout(waiting);
+            if (result) return setText("status", statusSentence(store.get()));
+            setText("status", "");
+            // After an edit a solve begins at once: what is waited for till then is not worth a word.
+            if (!activity)
+                waiting = setTimeout(() => setText("status", waitingSentence(store.get())), moment);
         },
     );
 }

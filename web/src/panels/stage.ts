@@ -8,7 +8,7 @@ import type {
 } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
 import { edgesInConflict, opponentsOf } from "../model/candidates.js";
-import { formatLength, shapeWords } from "../model/describe.js";
+import { formatLength, formatPercent, shapeWords } from "../model/describe.js";
 import { visibleDetours } from "../model/detours.js";
 import { landmarkLabel } from "../model/landmarks.js";
 import type { AppState, Display, Item } from "../model/state.js";
@@ -234,6 +234,10 @@ export function stage(store: Store<AppState>, actions: Actions): Stage {
         (state) => [state.display.clip, state.target],
         (share, _target) => {
             clip.value = String(share);
+            clip.setAttribute(
+                "aria-valuetext",
+                share === 0 ? "nothing cut away" : `${formatPercent(share)} cut away`,
+            );
             targetView.setClip(share);
         },
     );
