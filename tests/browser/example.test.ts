@@ -1,4 +1,6 @@
 // The page as it opens: a solved example, pictures, and what it asks the network for.
+import { readdir, readFile } from "node:fs/promises";
+import { gzipSync } from "node:zlib";
 import { Session, type EmbeddingDocument } from "layout-embedding";
 import { unzipSync } from "fflate";
 import { expect, inject, test } from "vitest";
@@ -39,6 +41,16 @@ test("only_the_pages_own_files_are_asked_for", () => {
     const origin = new URL(inject("pageUrl")).origin;
     expect(requests.length).toBeGreaterThan(2);
     expect(requests.filter((url) => new URL(url).origin !== origin)).toEqual([]);
+});
+
+test("the_pages_own_scripts_are_small", async () => {
+    const folder = new URL("../../web/dist/assets/", import.meta.url);
+    let bytes = 0;
+    for (const name of await readdir(folder))
+        if (name.endsWith(".js") && !name.startsWith("three-"))
+            bytes += gzipSync(await readFile(new URL(name, folder))).length;
+    expect(bytes).toBeGreaterThan(30_000);
+    expect(bytes).toBeLessThan(300_000);
 });
 
 /** A document without what depends on the clock. */
@@ -135,6 +147,43 @@ test("paths_get_another_shape_without_a_new_search", async () => {
     await page.selectOption("#shape", "short");
     await differs(even.length);
     expect(await figures()).toEqual(straight);
+});
+
+test("paths_glide_into_another_shape_but_not_where_motion_is_to_be_reduced", async () => {
+    const { page } = opened();
+    /** How many times the picture changed on the way to a shape. */
+    const picturesTo = async (shape: string) => {
+        const length = await page.textContent("#length");
+        await page.evaluate(() => {
+            const counter = globalThis as unknown as { uploads: number };
+            counter.uploads = 0;
+            const context = WebGL2RenderingContext.prototype as unknown as {
+                bufferData: (...args: unknown[]) => void;
+                counted?: boolean;
+            };
+            if (context.counted) return;
+            context.counted = true;
+
+            const original = context.bufferData;
+            context.bufferData = function (this: unknown, ...args: unknown[]) {
+                counter.uploads += 1;
+                original.apply(this, args);
+            };
+        });
+        await page.selectOption("#shape", shape);
+        await page.waitForFunction(
+            (before) => document.getElementById("length")?.textContent !== before,
+            length,
+        );
+        // Longer than paths glide.
+        await page.waitForTimeout(800);
+        return page.evaluate(() => (globalThis as unknown as { uploads: number }).uploads);
+    };
+    const gliding = await picturesTo("even");
+    await page.emulateMedia({ reducedMotion: "reduce" });
+    const still = await picturesTo("short");
+    await page.emulateMedia({ reducedMotion: null });
+    expect(gliding).toBeGreaterThan(still);
 });
 
 test("every_example_can_be_chosen_and_is_solved", async () => {

@@ -2,7 +2,7 @@ import type { EmbeddingSession, EmbedResult, SurfaceMap } from "layout-embedding
 import { loadShapes, type Shape } from "../gallery/catalogue.js";
 import { isLandmarkFile } from "./batch.js";
 import { Correspondence, otherSide, type FacePoint, type Side } from "./correspondence.js";
-import { formatLength, sentencesOf, statusWords } from "./describe.js";
+import { formatCount, formatLength, formatWhole, sentencesOf, statusWords } from "./describe.js";
 import { bestOf, isStopped } from "./engine.js";
 import { Latest } from "./latest.js";
 import type { MapState, OtherTarget, Texture } from "./maps.js";
@@ -11,6 +11,9 @@ import { pathOptions } from "./solve_options.js";
 import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
 import type { Embedded, Workshop } from "./workshop.js";
+
+/** Of both targets together: their overlay has several times as many, and is drawn twice. */
+const mostTriangles = 500_000;
 
 const optimisedWords = { no: "", partly: "partly optimised ", yes: "optimised " };
 
@@ -234,6 +237,12 @@ export class Mapping {
         if (!isWanted()) return null;
         const { repair, options } = this.store.get();
         const info = await session.loadTarget(target, { repair, signal });
+        const size = info.faceCount + (this.store.get().target?.faceCount ?? 0);
+        if (size > mostTriangles)
+            throw new Error(
+                `Both targets have ${formatCount(size, "triangle")} together, and a map here can ` +
+                    `take ${formatWhole(mostTriangles)}; simplify one of them, or map with the package.`,
+            );
         const placed = await (landmarks
             ? session.setLandmarks(landmarks)
             : session.landmarksByProximity());

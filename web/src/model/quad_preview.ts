@@ -15,6 +15,8 @@ import type { AppState } from "./state.js";
 import type { Store } from "./store.js";
 import type { Workshop } from "./workshop.js";
 
+/** Milliseconds after which newer settings do not wait for a mesh that is being made. */
+const patience = 1000;
 /** Milliseconds for which settings have to stay as they are before the mesh is relaxed. */
 const calm = 350;
 
@@ -28,6 +30,8 @@ export class QuadPreview {
     /** Ends what is being made; a relaxation is ended for newer settings, too. */
     private making = new AbortController();
     private relaxing = new AbortController();
+    /** performance.now() when the mesh that is being made was begun; null while none is. */
+    private makingSince: number | null = null;
     /** Until the settings have rested. */
     private timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -76,18 +80,22 @@ export class QuadPreview {
     stop(): void {
         this.interrupt();
         this.latest.drop();
-        this.making.abort();
-        this.making = new AbortController();
+        this.abortMaking();
         this.workshop.interrupt();
         this.update({ phase: null });
     }
 
     private refresh(): void {
         this.interrupt();
+        if (this.makingSince !== null && performance.now() - this.makingSince > patience)
+            this.abortMaking();
         this.latest.do((isWanted) =>
             this.attempt(isWanted, "Making quads", async (result, session, options) => {
                 const { signal } = this.making;
-                const rough = await session.quads({ ...options, relaxation: 0, signal });
+                this.makingSince = performance.now();
+                const rough = await session
+                    .quads({ ...options, relaxation: 0, signal })
+                    .finally(() => (this.makingSince = null));
                 // Shown also where a newer one is wanted: the slider is still moving.
                 if (this.store.get().result !== result) return;
                 this.show(rough, result, false);
@@ -106,6 +114,11 @@ export class QuadPreview {
                 if (isWanted()) this.show(relaxed, result, true);
             }),
         );
+    }
+
+    private abortMaking(): void {
+        this.making.abort();
+        this.making = new AbortController();
     }
 
     private interrupt(): void {
