@@ -18,6 +18,9 @@ namespace {
 
 /// By how much a trace has to raise the smaller quotient of its patches.
 constexpr double kLeastGain = 0.01;
+/// Paths between patches of at least this quotient stay as they are: traces would only make them
+/// turn more.
+constexpr double kRoundEnough = 0.3;
 constexpr double kRounding = 1e-9;
 /// Traces are jagged where the target's triangles are few or thin. So often all crossings are moved
 /// to shorten the two segments at them, which takes waves of a few edges away and leaves longer
@@ -28,6 +31,9 @@ constexpr double kKeptQuotient = 0.9;
 constexpr double kThin = 0.05;
 constexpr double kWidening = 2;
 constexpr int kMostWidenings = 6;
+/// By how much this has to raise the smallest quotient once it is larger than at first: all paths
+/// beside turn more for it.
+constexpr double kWorthWidening = 0.25;
 
 /// Puts strands on the free vertices that their gaps would bend them around.
 void snap_to_vertices(NormalForm& form, const CrossingGaps& gaps)
@@ -220,7 +226,7 @@ void Fairing::choose()
     }
     std::vector<std::pair<double, Index>> order;
     for (Index edge = 0; edge < layout_.edge_count(); ++edge) {
-        if (waiting_[edge]) {
+        if (waiting_[edge] && quotient_beside(*state_, edge) < kRoundEnough) {
             order.emplace_back(quotient_beside(*state_, edge), edge);
         }
     }
@@ -391,7 +397,8 @@ void Fairing::widen()
         return;
     }
     std::vector<double> quotients = quotients_of(layout_, *refined);
-    if (worst_of(quotients) > (1 + kLeastGain) * *worst) {
+    const bool has_risen = *worst > (1 + kLeastGain) * first_quotient_;
+    if (worst_of(quotients) > (1 + (has_risen ? kWorthWidening : kLeastGain)) * *worst) {
         gaps_ = std::move(gaps);
         state_->form = std::move(form);
         state_->quotients = std::move(quotients);

@@ -31,13 +31,14 @@ struct FairingOptions {
 /// a path stays in its homotopy class; paths that do not share a patch do not touch each other and
 /// are traced at the same time.
 ///
-/// A trace is kept if it raises the smaller isoperimetric quotient of its two patches, by more than
-/// a hundredth, and the smallest of all does not sink. It ends by itself: a path is tried again
-/// only once one of its patches has changed. Patches that stay thin because they lie between many
-/// paths over the same edges then get wider gaps there, and at the end a few sweeps take the jags
-/// out of the traces that come from the triangles they run through. Paths with the same layout face
-/// on both sides, or with none on one side, stay as they are; so do those that run along edges of
-/// lower cost, and those whose disk cannot be mapped without flips in double precision.
+/// Traced are paths beside a patch of an isoperimetric quotient below 0.3. A trace is kept if it
+/// raises the smaller quotient of its two patches, by more than a hundredth, and the smallest of
+/// all does not sink. It ends by itself: a path is tried again only once one of its patches has
+/// changed. Patches that stay thin because they lie between many paths over the same edges then get
+/// wider gaps there, where that helps much, and at the end a few sweeps take the jags out of the
+/// traces that come from the triangles they run through. Paths with the same layout face on both
+/// sides, or with none on one side, stay as they are; so do those that run along edges of lower
+/// cost, and those whose disk cannot be mapped without flips in double precision.
 ///
 /// Plain doubles, in a fixed order: the same bits on every platform, however the steps are cut into
 /// slices.
