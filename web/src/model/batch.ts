@@ -1,6 +1,7 @@
 // One layout, many targets: each is embedded into with the landmarks of the file beside it.
 import type { EmbedResult, ExportedFiles } from "layout-embedding";
 import { strToU8 } from "fflate";
+import { sentencesOf } from "./describe.js";
 import type { Engine } from "./engine.js";
 import { solveOptions } from "./solve_options.js";
 import type { BatchEntry, BatchFigures, SolveSettings } from "./state.js";
@@ -66,8 +67,7 @@ export class Batch {
                 files[place] = solved.files;
                 tell(place, { state: "done", figures: figuresOf(solved.result) });
             } catch (error) {
-                const message = error instanceof Error ? error.message : String(error);
-                tell(place, { state: "failed", error: message });
+                tell(place, { state: "failed", error: sentencesOf(error) });
             }
         }
         if (this.abort === abort) this.changed([...shown], false);

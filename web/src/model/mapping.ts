@@ -177,6 +177,7 @@ export class Mapping {
         const { signal } = making;
         this.update({ error: null, phase: "Taking over the embedding of the first target" });
         try {
+            this.assertDrawable(0);
             await this.workshop.with(result, pathOptions(options), (embedded) =>
                 this.makeOf(result, other, embedded, isWanted, signal),
             );
@@ -223,6 +224,16 @@ export class Mapping {
         else if (this.store.get().map.map === before) this.show(optimised, result, "partly");
     }
 
+    /** Throws where both targets, the second with so many triangles, are too large for a map. */
+    private assertDrawable(faceCount: number): void {
+        const size = faceCount + (this.store.get().target?.faceCount ?? 0);
+        if (size > mostTriangles)
+            throw new Error(
+                `The targets have ${faceCount === 0 ? "more than " : ""}${formatCount(size, "triangle")} together, and a map here can ` +
+                    `take ${formatWhole(mostTriangles)}; simplify one of them, or map with the package.`,
+            );
+    }
+
     /** The map as the patches give it; null where nobody wants it any more. */
     private async firstMap(
         session: EmbeddingSession,
@@ -237,12 +248,7 @@ export class Mapping {
         if (!isWanted()) return null;
         const { repair, options } = this.store.get();
         const info = await session.loadTarget(target, { repair, signal });
-        const size = info.faceCount + (this.store.get().target?.faceCount ?? 0);
-        if (size > mostTriangles)
-            throw new Error(
-                `Both targets have ${formatCount(size, "triangle")} together, and a map here can ` +
-                    `take ${formatWhole(mostTriangles)}; simplify one of them, or map with the package.`,
-            );
+        this.assertDrawable(info.faceCount);
         const placed = await (landmarks
             ? session.setLandmarks(landmarks)
             : session.landmarksByProximity());
