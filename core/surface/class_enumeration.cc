@@ -36,6 +36,7 @@ void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length li
     field_ = &fields_.get(goal_, start_);
     words_ = {};
     labels_.clear();
+    jumps_.clear();
     for (const Index state : used_states_) {
         first_labels_[state] = kNone;
     }
@@ -49,7 +50,7 @@ void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length li
     }
     met_.clear();
     strands_.for_each_way_out(2 * layout_edge, [&](Index dart, Index slot, Index strands) {
-        relax(kNone, dart, slot, strands);
+        relax({}, dart, slot, strands);
     });
 }
 
@@ -101,12 +102,13 @@ ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions,
         if (crosses_itself(current)) {
             continue;
         }
+        const Origin from{current, label.distance, label.word, label.entry};
         const Index end = graph.first_dart(node + 1);
         const Index back = graph.twin(label.parent_dart);  // leads to the label before
         if (!strands_.is_touched(node)) {
             for (Index d = graph.first_dart(node); d < end; ++d) {
                 if (d != back) {
-                    relax(current, d, 0, 0);
+                    relax(from, d, 0, 0);
                 }
             }
             continue;
@@ -123,21 +125,20 @@ ClassEnumeration::Outcome ClassEnumeration::run(std::uint64_t max_expansions,
         for (Index d = graph.first_dart(node); d < end; ++d) {
             const Index slot = strands_.slot_in_region(node, d, region);
             if (slot != kNone) {
-                relax(current, d, slot, strands_.strand_count(node, d));
+                relax(from, d, slot, strands_.strand_count(node, d));
             }
         }
     }
     return Outcome::exceeded;
 }
 
-void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index strand_count)
+void ClassEnumeration::relax(const Origin& from, Index dart, Index slot, Index strand_count)
 {
     const Dart& along = strands_.graph().dart(dart);
     if (along.head != goal_ && !strands_.passable()[along.head]) {
         return;
     }
-    const Length before = from_label == kNone ? 0 : labels_[from_label].distance;
-    const Length reached = before + along.length;
+    const Length reached = from.distance + along.length;
     const Length estimate = reached + field_->bound(along.head);
     if (estimate >= limit_) {
         return;
@@ -148,9 +149,7 @@ void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index str
     if (along.head == goal_ && region != goal_sector_) {
         return;
     }
-    const Index word =
-        cuts_->advance(words_, from_label == kNone ? Words::kEmpty : labels_[from_label].word, dart,
-                       start_vertex_);
+    const Index word = cuts_->advance(words_, from.word, dart, start_vertex_);
     const Index state = strands_.state(along.head, region);
     Index& first = first_labels_[state];
     Index found = first;
@@ -158,12 +157,15 @@ void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index str
         found = labels_[found].next;
         ++label_count_;
     }
+    const bool goes_on = from.label != kNone && from.word == word;
     if (found == kNone) {
         if (first == kNone) {
             used_states_.push_back(state);
         }
         found = static_cast<Index>(labels_.size());
-        labels_.push_back({state, word, reached, from_label, dart, first, found, found, 0, 0, 0});
+        labels_.push_back(
+            {reached, state, word, from.label, first, goes_on ? from.entry : found, dart, 0, 0});
+        jumps_.push_back({found, 0});
         first = found;
     } else {
         Label& label = labels_[found];
@@ -172,12 +174,11 @@ void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index str
             return;
         }
         label.distance = reached;
-        label.parent = from_label;
+        label.parent = from.label;
         label.parent_dart = dart;
         label.is_tied = 0;
+        label.entry = goes_on ? from.entry : found;
     }
-    const bool goes_on = from_label != kNone && labels_[from_label].word == word;
-    labels_[found].entry = goes_on ? labels_[from_label].entry : found;
     queue_.push({estimate, along.head == goal_ ? found | kIsGoal : found, along.head});
 }
 
@@ -185,17 +186,16 @@ void ClassEnumeration::relax(Index from_label, Index dart, Index slot, Index str
 /// (Myers 1983), so that a few of them lead anywhere.
 void ClassEnumeration::close(Index label)
 {
-    Label& here = labels_[label];
-    here.is_closed = 1;
-    if (here.parent == kNone) {
+    labels_[label].is_closed = 1;
+    const Index parent = labels_[label].parent;
+    if (parent == kNone) {
         return;
     }
-    const Label& parent = labels_[here.parent];
-    const Label& before = labels_[parent.jump];
-    here.depth = parent.depth + 1;
-    here.jump = parent.depth - before.depth == before.depth - labels_[before.jump].depth
-                    ? before.jump
-                    : here.parent;
+    const Jump of_parent = jumps_[parent];
+    const Jump before = jumps_[of_parent.to];
+    const bool goes_further =
+        of_parent.depth - before.depth == before.depth - jumps_[before.to].depth;
+    jumps_[label] = {goes_further ? before.to : parent, of_parent.depth + 1};
 }
 
 /// Whether the walk to the closed label `to` comes by `label`, which is nearer to the start.
@@ -204,7 +204,7 @@ bool ClassEnumeration::is_on_the_way(Index label, Index to)
     const Length distance = labels_[label].distance;
     while (labels_[to].distance > distance && labels_[to].parent != kNone) {
         ++label_count_;
-        to = labels_[labels_[to].jump].distance >= distance ? labels_[to].jump : labels_[to].parent;
+        to = labels_[jumps_[to].to].distance >= distance ? jumps_[to].to : labels_[to].parent;
     }
     return to == label;
 }

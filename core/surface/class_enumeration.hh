@@ -55,20 +55,30 @@ public:
     std::uint64_t work_count() const;
 
 private:
-    /// What is known of a state of the cut surface with a word.
-    struct Label {
+    /// What is known of a state of the cut surface with a word. Half a cache line: much of the time
+    /// goes by until labels come from memory.
+    struct alignas(32) Label {
+        Length distance;
         Index state;
         Index word;
-        Length distance;
         Index parent;  // label, kNone at the start
-        Index parent_dart;
-        Index next;   // label of the same state with another word
-        Index entry;  // the first label on the way whose word and all later ones are this one's
-        // Once closed: a label some way back, for is_on_the_way(), and how many are before this.
-        Index jump;
-        Index depth : 30;
+        Index next;    // label of the same state with another word
+        Index entry;   // the first label on the way whose word and all later ones are this one's
+        Index parent_dart : 30;  // more would not fit into memory
         Index is_closed : 1;
         Index is_tied : 1;
+    };
+    /// Of a closed label: a label some way back, for is_on_the_way(), and how many are before it.
+    struct Jump {
+        Index to;
+        Index depth;
+    };
+    /// A label that is being expanded; kNone and zeros where the edge begins.
+    struct Origin {
+        Index label = kNone;
+        Length distance = 0;
+        Index word = Words::kEmpty;
+        Index entry = kNone;
     };
     struct QueueItem {
         Length estimate;
@@ -80,7 +90,7 @@ private:
         }
     };
 
-    void relax(Index from_label, Index dart, Index slot, Index strand_count);
+    void relax(const Origin& from, Index dart, Index slot, Index strand_count);
     void close(Index label);
     bool is_on_the_way(Index label, Index to);
     bool crosses_itself(Index label);
@@ -99,6 +109,7 @@ private:
     const DistanceField* field_ = nullptr;
     Words words_;
     std::vector<Label> labels_;
+    std::vector<Jump> jumps_;            // per label
     std::vector<Index> first_labels_;    // per state of the cut surface
     std::vector<Index> used_states_;     // those with a label
     std::unordered_set<Index> classes_;  // words; looked up, never iterated
