@@ -33,7 +33,7 @@ void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length li
     start_ = strands_.landmark_node(start_vertex_);
     goal_ = strands_.landmark_node(goal_vertex_);
     goal_sector_ = strands_.sector(2 * layout_edge + 1);
-    field_ = &fields_.get(goal_, start_);
+    field_ = &fields_.get(goal_, start_, limit == kInfiniteLength ? 0 : limit);
     words_ = {};
     labels_.clear();
     jumps_.clear();

@@ -20,8 +20,10 @@ public:
     /// `passable[node]` is false at landmarks. O(#nodes) memory, no time yet.
     DistanceField(const PathGraph& graph, const std::vector<bool>& passable, Index source);
 
-    /// Grows the field until `node` is settled (or everything reachable is).
-    void extend_to(Index node);
+    /// Grows the field until `node` is settled (or everything reachable is). If walks from `node`
+    /// to the source are only looked for below a length `limit`, it goes on as far as these can
+    /// come: a walk over a node at distance d is no shorter than 2 d less the distance of `node`.
+    void extend_to(Index node, Length limit = 0);
 
     /// At most the distance between the node and the source; consistent along every dart as long
     /// as the field is not extended in between.
@@ -40,6 +42,8 @@ public:
     }
 
 private:
+    void settle_next();
+
     // Lengths are stored in units of 2^28, 2^-26 of the bounding-box diagonal.
     static constexpr unsigned kShift = 28;
     static constexpr std::uint32_t kFar = UINT32_MAX;
@@ -61,9 +65,9 @@ public:
     DistanceFields(const PathGraph& graph, const std::vector<bool>& passable,
                    std::uint64_t max_bytes);
 
-    /// The field of the landmark at node `source`, extended to `node`. The reference is valid until
-    /// the next call.
-    const DistanceField& get(Index source, Index node);
+    /// The field of the landmark at node `source`, extended as by DistanceField::extend_to(). The
+    /// reference is valid until the next call.
+    const DistanceField& get(Index source, Index node, Length limit = 0);
 
     /// Nodes settled by all fields so far.
     std::uint64_t settled_count() const { return settled_count_; }
