@@ -183,9 +183,17 @@ TEST(DistanceField, bounds_are_admissible_and_consistent_at_every_radius)
         DistanceField field(graph, strands.passable(), source);
         const Length diagonal = Length{1} << 54U;
         for (Index goal = 1; goal < strands.layout().vertex_count(); ++goal) {
-            field.extend_to(strands.landmark_node(goal));
+            // By turns to the goal, and as far as walks of one and a half times its distance come.
+            const Length distance = exact[strands.landmark_node(goal)];
+            const Length limit = goal % 2 == 0 ? distance + distance / 2 : 0;
+            field.extend_to(strands.landmark_node(goal), limit);
             for (Index node = 0; node < graph.node_count(); ++node) {
                 EXPECT_LE(field.bound(node), exact[node]);
+                if (2 * exact[node] < distance + limit) {
+                    EXPECT_NEAR(static_cast<double>(field.bound(node)),
+                                static_cast<double>(exact[node]),
+                                1e-5 * static_cast<double>(diagonal));
+                }
                 if (node != source && !strands.passable()[node]) {
                     continue;
                 }
