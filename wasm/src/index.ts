@@ -28,6 +28,7 @@ export { CancelledError, LayoutError, type ErrorInfo } from "./errors.js";
 export { batchTable } from "./batch.js";
 export { readReferenceInput } from "./formats.js";
 export { mapFiles } from "./map_files.js";
+export { facePatches, pathPoints } from "./unrefined.js";
 export { algorithmNames, pathShapeNames } from "./names.js";
 export type { EmbeddingDocument, InputRecord, RefinedMapDocument } from "./files.js";
 export type * from "./types.js";

@@ -15,6 +15,7 @@ import {
 import { exportJob } from "./formats.js";
 import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
+import { meshAttributes, withAttributes, type MeshAttributes } from "./attributes.js";
 import { textureCoordinates } from "./map_files.js";
 import { imagesOf, keepEmbedding, makeMap, readMap } from "./maps.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
@@ -60,6 +61,8 @@ interface Loaded {
     surface: Handle;
     record: InputRecord;
     vertexCount: number;
+    /** What refined.obj is to have of it. */
+    attributes: MeshAttributes | null;
 }
 
 /** What is told of layouts and targets alike. */
@@ -73,6 +76,7 @@ interface Solved {
     landmarks: Uint32Array;
     inputs: InputRecord[];
     notes: string[];
+    attributes: MeshAttributes | null;
 }
 
 export class Session implements EmbeddingSession {
@@ -110,11 +114,14 @@ export class Session implements EmbeddingSession {
 
     async loadTarget(input: MeshInput, options: TargetLoadOptions = {}): Promise<TargetInfo> {
         const [loaded, common] = await this.load("target", input, options);
+        // After a repair, faces are others.
+        const isAsItWas = "bytes" in input && loaded.mesh.vertexMap === null;
+        if (options.attributes === true && isAsItWas) {
+            loaded.attributes = meshAttributes(input);
+        }
         this.forget(this.target);
         this.target = loaded;
         this.landmarks = null;
-        // After a repair, faces are others.
-        const isAsItWas = "bytes" in input && loaded.mesh.vertexMap === null;
         const wanted = options.textureCoordinates === true && isAsItWas;
         return { ...common, textureCoordinates: wanted ? textureCoordinates(input) : null };
     }
@@ -221,6 +228,7 @@ export class Session implements EmbeddingSession {
             landmarks: landmarks.landmarks,
             inputs: [layout.record, target.record, landmarks.record],
             notes: [...layout.mesh.notes, ...target.mesh.notes, ...landmarks.notes],
+            attributes: target.attributes,
         };
         try {
             await runJob(core, job, options, this.isAlive);
@@ -265,7 +273,12 @@ export class Session implements EmbeddingSession {
         if (solved === null || !core.test("boundary_job_write_obj", solved.job)) {
             throw javaScriptError("nothingToExport", "no embedding was found in this session");
         }
-        const obj = core.viewedBytes();
+        const plain = core.viewedBytes();
+        const { refined } = exportable.result;
+        const obj =
+            solved.attributes === null || refined === null
+                ? plain
+                : withAttributes(plain, refined, solved.attributes);
         return Promise.resolve({ "refined.obj": obj, ...exportedFiles(exportable) });
     }
 
@@ -421,7 +434,8 @@ export class Session implements EmbeddingSession {
             await checkpoint(signal, this.isAlive);
             const common = this.describe(role, surface, mesh, input.name ?? role);
             await checkpoint(signal, this.isAlive);
-            return [{ mesh, surface, record, vertexCount: common.vertexCount }, common];
+            const { vertexCount } = common;
+            return [{ mesh, surface, record, vertexCount, attributes: null }, common];
         } catch (reason) {
             core.destroy(surface);
             core.destroy(mesh.handle);

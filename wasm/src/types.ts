@@ -74,6 +74,12 @@ export interface TargetLoadOptions extends LoadOptions {
      * takes a while for a large one. Off by default.
      */
     textureCoordinates?: boolean;
+    /**
+     * Whether refined.obj is to have what an OBJ file of triangles says besides places: texture
+     * coordinates, vertex colours, groups (behind those of the patches) and materials. Takes a
+     * while for a large file. Not after a repair, which makes other faces. Off by default.
+     */
+    attributes?: boolean;
 }
 
 /** What was done to an input, or what deserves attention; one sentence each. */

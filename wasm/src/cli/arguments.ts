@@ -32,6 +32,8 @@ export interface EmbedCommand {
     view: ExportView;
     /** Whether to write a report on paths and patches. */
     report: boolean;
+    /** Whether refined.obj is to have what the target's file says besides places. */
+    attributes: boolean;
     quiet: boolean;
     json: boolean;
     solve: SolveOptions;
@@ -136,6 +138,7 @@ const embedOptions = {
     format: { type: "string", multiple: true },
     view: { type: "string" },
     report: { type: "boolean" },
+    attributes: { type: "boolean" },
     quiet: { type: "boolean" },
 } as const satisfies ParseArgsConfig["options"];
 
@@ -284,6 +287,7 @@ function embedCommand(
         formats,
         view: view(values.view),
         report: values.report === true,
+        attributes: values.attributes === true,
         quiet: values.quiet === true,
         json: values.json === true,
         solve,

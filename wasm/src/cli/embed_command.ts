@@ -57,7 +57,10 @@ async function load(
         command.landmarks === null ? null : await readInput("the landmark file", command.landmarks);
     const options = { repair: command.repair };
     const loaded = await session.loadLayout(layout, options);
-    const loadedTarget = await session.loadTarget(target, options);
+    const loadedTarget = await session.loadTarget(target, {
+        ...options,
+        attributes: command.attributes,
+    });
     const notes = [...loaded.notes, ...loadedTarget.notes];
     if (file === null && previous !== null) {
         await session.setLandmarks(previous.landmarks, { numbering: "loaded" });

@@ -57,6 +57,8 @@ Options of embed
   --keep LIST          these edges keep their routes, as homotopy classes
   --report             report on lengths, roundness and distortion of every path and patch:
                        report.json, and in the object of --json
+  --attributes         refined.obj also has the texture coordinates, vertex colours, groups and
+                       materials of an OBJ target (not with --repair where that changes it)
   --quiet              print nothing but errors
 
 Options of quads, beside those of embed

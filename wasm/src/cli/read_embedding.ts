@@ -149,7 +149,7 @@ function readGroupsAndLines(obj: Uint8Array): { groups: number[]; lines: number[
     let patch = -1;
     for (const line of new TextDecoder().decode(obj).split("\n")) {
         if (line.startsWith("g ")) {
-            const match = /^g patch_(\d+)\s*$/.exec(line);
+            const match = /^g patch_(\d+)(?:\s|$)/.exec(line);
             patch = match === null ? -1 : Number(match[1]);
         } else if (line.startsWith("f ")) {
             groups.push(patch);
