@@ -15,6 +15,8 @@ constexpr Index kIsGoal = Index{1} << 31U;
 // labels.
 constexpr std::uint64_t kExpansionWork = 3;
 constexpr std::uint64_t kLabelsPerWork = 48;
+// Labels take at most so many times the memory that the last enumeration needed.
+constexpr std::size_t kSpareCapacity = 8;
 
 }  // namespace
 
@@ -35,6 +37,11 @@ void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length li
     goal_sector_ = strands_.sector(2 * layout_edge + 1);
     field_ = &fields_.get(goal_, start_, limit == kInfiniteLength ? 0 : limit);
     words_ = {};
+    if (labels_.size() < labels_.capacity() / kSpareCapacity) {
+        // One long enumeration does not take memory for all that follow.
+        labels_.shrink_to_fit();
+        jumps_.shrink_to_fit();
+    }
     labels_.clear();
     jumps_.clear();
     for (const Index state : used_states_) {

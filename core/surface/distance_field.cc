@@ -26,6 +26,9 @@ void DistanceField::extend_to(Index node, Length limit)
     if (heap_.empty()) {
         radius_ = kFar - 1;
     }
+    if (heap_.capacity() > heap_.size() + heap_.size() / 4) {
+        heap_.shrink_to_fit();  // there are many fields, and few go on
+    }
 }
 
 void DistanceField::settle_next()
