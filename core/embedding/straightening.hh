@@ -19,8 +19,7 @@ struct StraighteningOptions {
     /// (embedding/angle_widening.hh), at the price of some length.
     bool open_angles = true;
     /// Per target edge, what a unit of length along it costs, at most 1 (as in PathMetric); empty
-    /// for
-    /// 1. Strands that run along edges are measured so; all else is plain length. Not copied.
+    /// for 1. Strands that run along edges are measured so; all else is plain length. Not copied.
     std::span<const double> edge_costs = {};
 };
 

@@ -46,6 +46,7 @@ import type {
 
 export { CancelledError, LayoutError } from "./errors.js";
 export { mapFiles } from "./map_files.js";
+export { facePatches, pathPoints } from "./unrefined.js";
 export { algorithmNames, pathShapeNames } from "./names.js";
 export type * from "./types.js";
 

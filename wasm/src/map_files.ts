@@ -1,6 +1,6 @@
 // What is written of a map: the images of vertices as JSON, the overlay as OBJ on either target.
 import { jsonBytes } from "./files.js";
-import type { MeshFile, SurfaceMap, SurfacePoints } from "./types.js";
+import type { SurfaceMap, SurfacePoints } from "./types.js";
 
 /** The version of map.json. */
 const fileVersion = 1;
@@ -92,40 +92,4 @@ function interpolated(texture: Float64Array, face: number, weights: Float64Array
         });
         return sum;
     });
-}
-
-/**
- * The texture coordinates of an OBJ file of triangles, 6 per face, two for each corner; null where
- * it is another file or not every corner has some.
- */
-export function textureCoordinates({ bytes, name = "", format }: MeshFile): Float64Array | null {
-    if (format === undefined ? !/\.obj$/i.test(name) : format !== "obj") {
-        return null;
-    }
-    const text = new TextDecoder().decode(bytes);
-    if (!/^\s*vt\s/m.test(text)) {
-        return null;
-    }
-    const coordinates: number[] = [];
-    const faces: number[] = [];
-    for (let begin = 0; begin < text.length;) {
-        const newline = text.indexOf("\n", begin);
-        const end = newline < 0 ? text.length : newline;
-        const [keyword, ...words] = text.slice(begin, end).trim().split(/\s+/);
-        begin = end + 1;
-        if (keyword === "vt") {
-            coordinates.push(Number(words[0]), Number(words[1] ?? 0));
-        } else if (keyword === "f") {
-            for (const word of words) {
-                const given = Number(word.split("/")[1] ?? NaN);
-                const id = given < 0 ? coordinates.length / 2 + given : given - 1;
-                const [u, v] = [coordinates[2 * id], coordinates[2 * id + 1]];
-                if (u === undefined || v === undefined || words.length !== 3) {
-                    return null;
-                }
-                faces.push(u, v);
-            }
-        }
-    }
-    return faces.length === 0 ? null : Float64Array.from(faces);
 }

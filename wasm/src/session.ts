@@ -16,7 +16,6 @@ import { exportJob } from "./formats.js";
 import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
 import { meshAttributes, withAttributes, type MeshAttributes } from "./attributes.js";
-import { textureCoordinates } from "./map_files.js";
 import { imagesOf, keepEmbedding, makeMap, readMap } from "./maps.js";
 import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
 import { makeQuads } from "./quads.js";
@@ -116,14 +115,17 @@ export class Session implements EmbeddingSession {
         const [loaded, common] = await this.load("target", input, options);
         // After a repair, faces are others.
         const isAsItWas = "bytes" in input && loaded.mesh.vertexMap === null;
-        if (options.attributes === true && isAsItWas) {
-            loaded.attributes = meshAttributes(input);
+        const wanted = options.attributes === true || options.textureCoordinates === true;
+        const attributes = wanted && isAsItWas ? meshAttributes(input) : null;
+        if (options.attributes === true) {
+            loaded.attributes = attributes;
         }
         this.forget(this.target);
         this.target = loaded;
         this.landmarks = null;
-        const wanted = options.textureCoordinates === true && isAsItWas;
-        return { ...common, textureCoordinates: wanted ? textureCoordinates(input) : null };
+        const isAsked = options.textureCoordinates === true;
+        const textureCoordinates = isAsked ? (attributes?.textureCoordinates ?? null) : null;
+        return { ...common, textureCoordinates };
     }
 
     async inspect(
