@@ -25,6 +25,7 @@ SurfaceMapJob::SurfaceMapJob(std::shared_ptr<const Layout> layout, MappedTarget 
 {
     map_.layout_ = std::move(layout);
 }
+SurfaceMapJob::~SurfaceMapJob() = default;
 
 bool SurfaceMapJob::step()
 {
@@ -33,6 +34,7 @@ bool SurfaceMapJob::step()
             status_ = place();
             break;
         case Stage::rounds:
+        case Stage::unjudged_round:
             status_ = optimise();
             break;
         case Stage::paths:
@@ -55,8 +57,20 @@ double SurfaceMapJob::progress() const
     if (stage_ == Stage::place || stage_ == Stage::over) {
         return stage_ == Stage::over ? 1 : 0;
     }
-    const double share = options_.rounds > 0 ? double(round_) / options_.rounds : 0;
-    return std::min(1.0, (pass_ + share) / (options_.seam_passes + 1));
+    // Rounds, and the pass after them.
+    const double rounds_share = pass_ == 0 && options_.seam_passes > 0 ? 0
+                                : pass_ < options_.seam_passes         ? 0.5
+                                                                       : 1;
+    double part = 1;
+    if (stage_ == Stage::paths) {
+        const double done = pass_over_paths_ ? pass_over_paths_->progress() : 0;
+        part = rounds_share + (1 - rounds_share) * done;
+    } else if (stage_ != Stage::check) {
+        const double done = round_of_maps_ ? round_of_maps_->progress() : 0;
+        part = options_.rounds > 0 ? rounds_share * std::min(1.0, (round_ + done) / options_.rounds)
+                                   : rounds_share;
+    }
+    return std::min(1.0, (pass_ + part) / (options_.seam_passes + 1));
 }
 
 void SurfaceMapJob::end_optimisation()
@@ -64,6 +78,8 @@ void SurfaceMapJob::end_optimisation()
     if (stage_ == Stage::place) {
         options_.rounds = options_.seam_passes = 0;
     } else if (stage_ != Stage::over) {
+        round_of_maps_.reset();
+        pass_over_paths_.reset();
         stage_ = Stage::check;
     }
 }
@@ -132,43 +148,69 @@ MapEnergy SurfaceMapJob::judged_by() const
 
 Status SurfaceMapJob::optimise()
 {
-    bool has_gained = false;
-    if (round_ < options_.rounds) {
-        std::vector<PlacedTarget> moved = map_.placed_;
-        MapOptimisation(*map_.layout_, moved[0], moved[1], judged_by()).round();
-        const double excess = map_.distortion_.mean_energy - kIsometry;
-        auto gain = keep_if_better(std::move(moved));
-        if (gain && !(*gain > 0)) {
-            // Patches that get worse by themselves may still make the whole better.
-            moved = map_.placed_;
-            MapOptimisation(*map_.layout_, moved[0], moved[1], MapEnergy::samples)
-                .round(std::vector<bool>(map_.layout_->face_count(), true),
-                       std::vector<bool>(map_.layout_->edge_count(), true));
-            gain = keep_if_better(std::move(moved));
+    if (!round_of_maps_) {
+        if (round_ == options_.rounds) {
+            end_rounds();
+            return {};
         }
-        if (!gain) {
-            return gain.error();
+        const bool is_judged = stage_ == Stage::rounds;
+        moved_ = map_.placed_;
+        round_of_maps_ = std::make_unique<MapOptimisation>(
+            *map_.layout_, moved_[0], moved_[1], is_judged ? judged_by() : MapEnergy::samples);
+        if (is_judged) {
+            round_of_maps_->begin_round();
+        } else {
+            round_of_maps_->begin_round(std::vector<bool>(map_.layout_->face_count(), true),
+                                        std::vector<bool>(map_.layout_->edge_count(), true));
         }
-        ++round_;
-        has_gained = *gain > kLeastEnergyGain * excess;
+        return {};
     }
-    if (!has_gained) {
-        stage_ = pass_ < options_.seam_passes ? Stage::paths : Stage::check;
+    if (round_of_maps_->step()) {
+        return {};
+    }
+    round_of_maps_.reset();
+    const double excess = map_.distortion_.mean_energy - kIsometry;
+    const auto gain = keep_if_better();
+    if (!gain) {
+        return gain.error();
+    }
+    if (stage_ == Stage::rounds && !(*gain > 0)) {
+        // Patches that get worse by themselves may still make the whole better.
+        stage_ = Stage::unjudged_round;
+        return {};
+    }
+    stage_ = Stage::rounds;
+    ++round_;
+    if (!(*gain > kLeastEnergyGain * excess)) {
+        end_rounds();
     }
     return {};
 }
 
+void SurfaceMapJob::end_rounds()
+{
+    stage_ = pass_ < options_.seam_passes ? Stage::paths : Stage::check;
+}
+
 Status SurfaceMapJob::move_paths()
 {
-    std::vector<PlacedTarget> moved = map_.placed_;
-    const bool has_moved =
-        SeamOptimisation(*map_.layout_, moved[0], moved[1], judged_by()).pass() > 0;
+    if (!pass_over_paths_) {
+        moved_ = map_.placed_;
+        pass_over_paths_ =
+            std::make_unique<SeamOptimisation>(*map_.layout_, moved_[0], moved_[1], judged_by());
+        return {};
+    }
+    if (pass_over_paths_->step()) {
+        return {};
+    }
+    const bool has_moved = pass_over_paths_->kept() > 0;
+    pass_over_paths_.reset();
     if (!has_moved && pass_ > 0) {
         stage_ = Stage::check;
         return {};
     }
     if (has_moved) {
-        if (const auto gain = keep_if_better(std::move(moved)); !gain) {
+        if (const auto gain = keep_if_better(); !gain) {
             return gain.error();
         }
     }
@@ -178,16 +220,16 @@ Status SurfaceMapJob::move_paths()
     return {};
 }
 
-Result<double> SurfaceMapJob::keep_if_better(std::vector<PlacedTarget> moved)
+Result<double> SurfaceMapJob::keep_if_better()
 {
-    auto laid = overlay(*map_.layout_, moved[0], moved[1]);
+    auto laid = overlay(*map_.layout_, moved_[0], moved_[1]);
     if (!laid) {
         return laid.error();
     }
-    const MapDistortion distortion = map_distortion(moved[0], moved[1], *laid);
+    const MapDistortion distortion = map_distortion(moved_[0], moved_[1], *laid);
     const double gain = map_.distortion_.mean_energy - distortion.mean_energy;
     if (gain > 0) {
-        map_.placed_ = std::move(moved);
+        map_.placed_ = std::move(moved_);
         map_.overlay_ = std::move(*laid);
         map_.distortion_ = distortion;
     }

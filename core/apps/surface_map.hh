@@ -69,32 +69,37 @@ private:
     MapDistortion first_distortion_;
 };
 
-/// SurfaceMap::make() in steps: the map as the patches are, each round of optimisation, each pass
-/// over the paths, the check.
+class MapOptimisation;
+class SeamOptimisation;
+
+/// SurfaceMap::make() in steps: the map as the patches are, rounds of optimisation and passes over
+/// the paths face by face and edge by edge, the check.
 class SurfaceMapJob {
 public:
     SurfaceMapJob(std::shared_ptr<const Layout> layout, MappedTarget a, MappedTarget b,
                   const SurfaceMapOptions& options = {});
+    ~SurfaceMapJob();
 
     /// Does some work; false once the job is over.
     bool step();
     /// Share of the optimisation that is done, at least, in [0, 1].
     double progress() const;
-    /// Has the map checked as far as it is optimised by then.
+    /// Has the map checked as far as the rounds and passes that are done have optimised it.
     void end_optimisation();
     /// The map, or what went wrong; once, when the job is over.
     Result<SurfaceMap> take();
 
 private:
-    enum class Stage : std::uint8_t { place, rounds, paths, check, over };
+    enum class Stage : std::uint8_t { place, rounds, unjudged_round, paths, check, over };
 
     Status place();
     MapEnergy judged_by() const;
     Status optimise();
+    void end_rounds();
     Status move_paths();
     Status check();
     /// Takes over what has been moved if that has lowered the energy; by how much it has.
-    Result<double> keep_if_better(std::vector<PlacedTarget> moved);
+    Result<double> keep_if_better();
 
     std::array<MappedTarget, 2> targets_;
     SurfaceMapOptions options_;
@@ -103,6 +108,10 @@ private:
     Index round_ = 0;  // since the paths were moved
     Index pass_ = 0;
     Status status_;
+    // Of a round or a pass: both targets, and what moves their maps.
+    std::vector<PlacedTarget> moved_;
+    std::unique_ptr<MapOptimisation> round_of_maps_;
+    std::unique_ptr<SeamOptimisation> pass_over_paths_;
 };
 
 }  // namespace layout_embedding

@@ -14,76 +14,149 @@ namespace {
 constexpr std::int64_t kLeastStep = 64;
 constexpr int kShareHalvings = 8;
 
+double area_of_patches(const PlacedTarget& placed)
+{
+    double sum = 0;
+    for (Index face = 0; face < placed.patches().size(); ++face) {
+        const std::vector<Vec3> x = placed.positions(face);
+        for (const auto& c : placed.patches()[face].map.corners) {
+            sum += (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
 /// One target's maps while they are moved over those of the other one.
-class MovingTarget {
+class MapOptimisation::MovingTarget {
 public:
     MovingTarget(const Layout& layout, PlacedTarget& moving, const PlacedTarget& fixed,
-                 double scale, bool moves_a, MapEnergy judged_by, const std::vector<bool>& faces)
+                 double scale, bool moves_a, MapEnergy judged_by, const std::vector<bool>& faces,
+                 const std::vector<bool>& edges, bool is_exact)
         : layout_(layout),
           moving_(moving),
           fixed_(fixed),
           scale_(scale),
           moves_a_(moves_a),
+          judged_by_(judged_by),
+          faces_(faces),
+          edges_(edges),
+          is_exact_(is_exact),
           patches_(layout.face_count())
+    {}
+
+    /// Moves what is inside of a face or on an edge, or measures a face; false once all is done.
+    bool step()
     {
-        for (Index face = 0; face < layout.face_count(); ++face) {
-            if (faces[face]) {
-                patches_[face].emplace(moving.patches()[face], moving.positions(face),
-                                       fixed.patches()[face], fixed.positions(face), scale, moves_a,
-                                       judged_by);
-            }
+        if (stage_ == Stage::over) {
+            return false;
+        }
+        const bool on_edges = stage_ == Stage::chains;
+        const Index count = on_edges ? layout_.edge_count() : layout_.face_count();
+        const std::vector<bool>& chosen = on_edges ? edges_ : faces_;
+        while (place_ < count && !chosen[place_]) {
+            ++place_;
+        }
+        if (place_ < count) {
+            work_at(place_++);
+            return true;
+        }
+        place_ = 0;
+        end_stage();
+        return stage_ != Stage::over;
+    }
+
+    double progress() const
+    {
+        if (stage_ == Stage::over) {
+            return 1;
+        }
+        const Index count = stage_ == Stage::chains ? layout_.edge_count() : layout_.face_count();
+        return (static_cast<double>(stage_) + double(place_) / count) /
+               static_cast<double>(Stage::over);
+    }
+
+private:
+    enum class Stage : std::uint8_t { inside, before, chains, after, over };
+
+    void work_at(Index place)
+    {
+        switch (stage_) {
+            case Stage::inside:
+                improve_inside(place);
+                break;
+            case Stage::before:
+                energy_before_ += exact_energy(place);
+                break;
+            case Stage::chains:
+                improve_chain(place);
+                break;
+            case Stage::after:
+                energy_after_ += exact_energy(place);
+                break;
+            case Stage::over:
+                break;
+        }
+    }
+
+    void end_stage()
+    {
+        switch (stage_) {
+            case Stage::inside:
+                stage_ = is_exact_ ? Stage::before : Stage::chains;
+                break;
+            case Stage::before:
+                before_chains_ = moving_;
+                stage_ = Stage::chains;
+                break;
+            case Stage::chains:
+                set_points();
+                stage_ = is_exact_ ? Stage::after : Stage::over;
+                break;
+            case Stage::after:
+                if (!(energy_after_ < energy_before_)) {
+                    moving_ = std::move(*before_chains_);
+                }
+                stage_ = Stage::over;
+                break;
+            case Stage::over:
+                break;
         }
     }
 
     /// What lowers the energy as MovingPatch sees it need not lower the exact one: where it does
-    /// not, a patch stays if `is_exact`.
-    void improve_inside(bool is_exact)
+    /// not, a patch stays if exact energies count.
+    void improve_inside(Index face)
     {
-        for (Index face = 0; face < layout_.face_count(); ++face) {
-            if (!patches_[face]) {
-                continue;
-            }
-            if (!is_exact) {
-                patches_[face]->improve_all();
-                continue;
-            }
-            const std::vector<PlanePoint> before = patches_[face]->points();
-            const double energy = exact_energy(face);
-            patches_[face]->improve_all();
-            moving_.set_points(face, patches_[face]->points());
-            if (!(exact_energy(face) < energy)) {
-                moving_.set_points(face, before);
-                patches_[face]->set_points(before);
-            }
+        MovingPatch& patch = patches_[face].emplace(
+            moving_.patches()[face], moving_.positions(face), fixed_.patches()[face],
+            fixed_.positions(face), scale_, moves_a_, judged_by_);
+        if (!is_exact_) {
+            patch.improve_all();
+            return;
+        }
+        const std::vector<PlanePoint> before = patch.points();
+        const double energy = exact_energy(face);
+        patch.improve_all();
+        moving_.set_points(face, patch.points());
+        if (!(exact_energy(face) < energy)) {
+            moving_.set_points(face, before);
+            patch.set_points(before);
         }
     }
 
-    void improve_chains(const std::vector<bool>& edges)
+    void improve_chain(Index edge)
     {
-        for (Index edge = 0; edge < layout_.edge_count(); ++edge) {
-            if (!edges[edge]) {
-                continue;
-            }
-            find_beside(edge);
-            shares_ = moving_.shares()[edge];
-            for (std::size_t i = 1; i + 1 < shares_.size(); ++i) {
-                improve(i);
-            }
-            moving_.set_shares(edge, shares_);
+        find_beside(edge);
+        shares_ = moving_.shares()[edge];
+        for (std::size_t i = 1; i + 1 < shares_.size(); ++i) {
+            improve(i);
         }
+        moving_.set_shares(edge, shares_);
     }
 
-    /// Of all patches, as they were last set.
-    double exact_energy() const
-    {
-        double sum = 0;
-        for (Index face = 0; face < layout_.face_count(); ++face) {
-            sum += patches_[face] ? exact_energy(face) : 0;
-        }
-        return sum;
-    }
-
-    void finish()
+    void set_points()
     {
         for (Index face = 0; face < layout_.face_count(); ++face) {
             if (patches_[face]) {
@@ -92,7 +165,6 @@ public:
         }
     }
 
-private:
     /// A side of a patch that the chain is.
     struct Beside {
         Index face;
@@ -210,25 +282,20 @@ private:
     const PlacedTarget& fixed_;
     double scale_;
     bool moves_a_;
+    MapEnergy judged_by_;
+    const std::vector<bool>& faces_;
+    const std::vector<bool>& edges_;
+    bool is_exact_;
+    Stage stage_ = Stage::inside;
+    Index place_ = 0;  // of the stage: the next face or edge
+    double energy_before_ = 0;
+    double energy_after_ = 0;
+    std::optional<PlacedTarget> before_chains_;
     std::vector<std::optional<MovingPatch>> patches_;  // per layout face
     // Of the chain that is being improved.
     std::vector<Beside> beside_;
     ChainShares shares_;
 };
-
-double area_of_patches(const PlacedTarget& placed)
-{
-    double sum = 0;
-    for (Index face = 0; face < placed.patches().size(); ++face) {
-        const std::vector<Vec3> x = placed.positions(face);
-        for (const auto& c : placed.patches()[face].map.corners) {
-            sum += (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
-        }
-    }
-    return sum;
-}
-
-}  // namespace
 
 double area_ratio(const PlacedTarget& a, const PlacedTarget& b)
 {
@@ -239,22 +306,42 @@ MapOptimisation::MapOptimisation(const Layout& layout, PlacedTarget& a, PlacedTa
                                  MapEnergy judged_by)
     : layout_(layout), targets_{&a, &b}, scale_(area_ratio(a, b)), judged_by_(judged_by)
 {}
+MapOptimisation::~MapOptimisation() = default;
 
-void MapOptimisation::move(const std::vector<bool>& faces, const std::vector<bool>& edges,
-                           bool is_exact)
+void MapOptimisation::begin_round()
 {
-    for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
-        MovingTarget moving(layout_, *targets_[side], *targets_[1 - side],
-                            side == 0 ? scale_ : 1 / scale_, side == 0, judged_by_, faces);
-        moving.improve_inside(is_exact);
-        const PlacedTarget before = *targets_[side];
-        const double energy = is_exact ? moving.exact_energy() : 0;
-        moving.improve_chains(edges);
-        moving.finish();
-        if (is_exact && !(moving.exact_energy() < energy)) {
-            *targets_[side] = before;
-        }
+    begin_round(std::vector<bool>(layout_.face_count(), true),
+                std::vector<bool>(layout_.edge_count(), true));
+    is_exact_ = true;
+}
+
+void MapOptimisation::begin_round(std::vector<bool> faces, std::vector<bool> edges)
+{
+    faces_ = std::move(faces);
+    edges_ = std::move(edges);
+    is_exact_ = false;
+    moving_.reset();
+    sides_left_ = 2;
+}
+
+bool MapOptimisation::step()
+{
+    if (!moving_ && sides_left_ > 0) {
+        const std::size_t side = sides_left_ - 1;
+        moving_ = std::make_unique<MovingTarget>(layout_, *targets_[side], *targets_[1 - side],
+                                                 side == 0 ? scale_ : 1 / scale_, side == 0,
+                                                 judged_by_, faces_, edges_, is_exact_);
     }
+    if (moving_ && !moving_->step()) {
+        moving_.reset();
+        --sides_left_;
+    }
+    return sides_left_ > 0;
+}
+
+double MapOptimisation::progress() const
+{
+    return 1 - (static_cast<double>(sides_left_) - (moving_ ? moving_->progress() : 0)) / 2;
 }
 
 }  // namespace layout_embedding

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "layout/layout.hh"
@@ -22,27 +24,32 @@ public:
     /// All must outlive this.
     MapOptimisation(const Layout& layout, PlacedTarget& a, PlacedTarget& b, MapEnergy judged_by);
 
-    /// Moves all vertices of target b, then all of target a; those inside of a patch only if that
-    /// lowers its exact energy (patch_energy()).
-    void round()
-    {
-        move(std::vector<bool>(layout_.face_count(), true),
-             std::vector<bool>(layout_.edge_count(), true), true);
-    }
+    ~MapOptimisation();
+
+    /// Begins a round: all vertices of target b will be moved, then all of target a; those inside
+    /// of a patch only if that lowers its exact energy (patch_energy()).
+    void begin_round();
     /// The same in some layout faces, and on some edges, all of whose sides are in such faces,
     /// whatever becomes of exact energies: from bad maps the way may lead over worse ones.
-    void round(const std::vector<bool>& faces, const std::vector<bool>& edges)
-    {
-        move(faces, edges, false);
-    }
+    void begin_round(std::vector<bool> faces, std::vector<bool> edges);
+    /// Works on one face or edge of the round; false once the round is over. Until then the targets
+    /// are in between.
+    bool step();
+    /// Share of the round that is done, in [0, 1].
+    double progress() const;
 
 private:
-    void move(const std::vector<bool>& faces, const std::vector<bool>& edges, bool is_exact);
+    class MovingTarget;
 
     const Layout& layout_;
     std::array<PlacedTarget*, 2> targets_;
     double scale_;
     MapEnergy judged_by_;
+    std::vector<bool> faces_;
+    std::vector<bool> edges_;
+    bool is_exact_ = false;
+    std::size_t sides_left_ = 0;
+    std::unique_ptr<MovingTarget> moving_;
 };
 
 /// The ratio of the areas of all patches of two targets.

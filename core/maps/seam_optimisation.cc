@@ -102,45 +102,114 @@ SeamOptimisation::SeamOptimisation(const Layout& layout, PlacedTarget& a, Placed
     : layout_(layout), targets_{&a, &b}, scale_(area_ratio(a, b)), judged_by_(judged_by)
 {}
 
-Index SeamOptimisation::pass()
+bool SeamOptimisation::step()
 {
-    energies_.clear();
-    for (Index face = 0; face < layout_.face_count(); ++face) {
+    switch (stage_) {
+        case Stage::measure:
+            measure();
+            break;
+        case Stage::choose:
+            choose();
+            break;
+        case Stage::trace:
+            trace();
+            break;
+        case Stage::place:
+            place();
+            break;
+        case Stage::improve:
+            improve();
+            break;
+        case Stage::judge:
+            judge();
+            break;
+        case Stage::over:
+            break;
+    }
+    return stage_ != Stage::over;
+}
+
+double SeamOptimisation::progress() const
+{
+    if (stage_ == Stage::measure || stage_ == Stage::over) {
+        return stage_ == Stage::over ? 1 : 0;
+    }
+    return edge_count_ > 0 ? 1 - double(waiting_.size() + batch_.size()) / edge_count_ : 0;
+}
+
+/// The energy of one patch.
+void SeamOptimisation::measure()
+{
+    const auto face = static_cast<Index>(energies_.size());
+    if (face < layout_.face_count()) {
         energies_.push_back(patch_energy(targets_[0]->patches()[face], targets_[0]->positions(face),
                                          targets_[1]->patches()[face], targets_[1]->positions(face),
                                          scale_));
+        return;
     }
-    std::vector<Index> waiting;
     for (Index edge = 0; edge < layout_.edge_count(); ++edge) {
         const Index left = layout_.face(2 * edge);
         const Index right = layout_.face(2 * edge + 1);
         if (left != kNone && right != kNone && left != right) {
-            waiting.push_back(edge);
+            waiting_.push_back(edge);
         }
     }
-    Index kept = 0;
-    while (!waiting.empty()) {
-        std::stable_sort(waiting.begin(), waiting.end(),
-                         [&](Index x, Index y) { return energy_beside(x) > energy_beside(y); });
-        std::vector<bool> used(layout_.face_count(), false);
-        std::vector<Index> later;
-        std::vector<Trace> traces;
-        for (const Index edge : waiting) {
-            const Index left = layout_.face(2 * edge);
-            const Index right = layout_.face(2 * edge + 1);
-            if (used[left] || used[right]) {
-                later.push_back(edge);
-                continue;
-            }
-            used[left] = used[right] = true;
-            if (auto made = trace(edge)) {
-                traces.push_back(std::move(*made));
-            }
-        }
-        kept += compare(traces);
-        waiting = std::move(later);
+    edge_count_ = static_cast<Index>(waiting_.size());
+    stage_ = Stage::choose;
+}
+
+/// The next batch.
+void SeamOptimisation::choose()
+{
+    if (waiting_.empty()) {
+        stage_ = Stage::over;
+        return;
     }
-    return kept;
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [&](Index x, Index y) { return energy_beside(x) > energy_beside(y); });
+    std::vector<bool> used(layout_.face_count(), false);
+    std::vector<Index> later;
+    for (const Index edge : waiting_) {
+        const Index left = layout_.face(2 * edge);
+        const Index right = layout_.face(2 * edge + 1);
+        if (used[left] || used[right]) {
+            later.push_back(edge);
+            continue;
+        }
+        used[left] = used[right] = true;
+        batch_.push_back(edge);
+    }
+    std::reverse(batch_.begin(), batch_.end());
+    waiting_ = std::move(later);
+    traces_.clear();
+    stage_ = Stage::trace;
+}
+
+/// A round in the union of an edge's patches, on one side.
+void SeamOptimisation::trace()
+{
+    if (!trace_) {
+        if (batch_.empty()) {
+            attempts_.clear();
+            if (!traces_.empty()) {
+                attempts_.push_back(std::move(traces_));
+            }
+            stage_ = attempts_.empty() ? Stage::choose : Stage::place;
+        } else if (!begin_trace(batch_.back())) {
+            trace_.reset();
+            batch_.pop_back();
+        }
+        return;
+    }
+    if (union_steps_ < 2 * kUnionRounds) {
+        improve_union(union_steps_++ % 2 == 0 ? 1 : 0);
+        return;
+    }
+    if (end_trace()) {
+        traces_.push_back(std::move(*trace_));
+    }
+    trace_.reset();
+    batch_.pop_back();
 }
 
 double SeamOptimisation::energy_beside(Index edge) const
@@ -192,7 +261,8 @@ std::vector<SeamOptimisation::Path> SeamOptimisation::paths_of(std::size_t side)
     return paths;
 }
 
-std::optional<SeamOptimisation::Trace> SeamOptimisation::trace(Index edge) const
+/// Maps the unions of both targets; false if they have no map.
+bool SeamOptimisation::begin_trace(Index edge)
 {
     const std::array<Index, 2> faces{layout_.face(2 * edge), layout_.face(2 * edge + 1)};
     const std::array<Index, 2> places{side_place(layout_, 2 * edge),
@@ -211,51 +281,64 @@ std::optional<SeamOptimisation::Trace> SeamOptimisation::trace(Index edge) const
     }
     const auto domain = snapped(inscribed_polygon(lengths));
     if (!domain) {
-        return std::nullopt;
+        return false;
     }
-    Trace result;
-    result.edge = edge;
-    std::array<std::vector<Vec3>, 2> positions;
+    union_domain_ = *domain;
+    union_steps_ = 0;
+    trace_.emplace();
+    trace_->edge = edge;
     for (std::size_t side = 0; side < 2; ++side) {
         const PlacedTarget& target = *targets_[side];
         const auto boundary = boundary_points(sides, unions[side], *domain, target.shares());
         auto placed =
             place_patch(std::move(unions[side]), target.refined().positions, *domain, boundary);
         if (!placed) {
-            return std::nullopt;
+            return false;
         }
-        result.unions[side] = std::move(*placed);
-        positions[side] = positions_in(target, result.unions[side]);
+        trace_->unions[side] = std::move(*placed);
+        union_positions_[side] = positions_in(target, trace_->unions[side]);
     }
-    for (int round = 0; round < kUnionRounds; ++round) {
-        for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
-            MovingPatch moving(result.unions[side], positions[side], result.unions[1 - side],
-                               positions[1 - side], side == 0 ? scale_ : 1 / scale_, side == 0,
-                               judged_by_);
-            moving.improve_all();
-            result.unions[side].map.points = moving.points();
-        }
-    }
+    return true;
+}
+
+void SeamOptimisation::improve_union(std::size_t side)
+{
+    PlacedPatch& own = trace_->unions[side];
+    MovingPatch moving(own, union_positions_[side], trace_->unions[1 - side],
+                       union_positions_[1 - side], side == 0 ? scale_ : 1 / scale_, side == 0,
+                       judged_by_);
+    moving.improve_all();
+    own.map.points = moving.points();
+}
+
+/// Traces the paths in the unions; false if one has no straight line.
+bool SeamOptimisation::end_trace()
+{
+    Trace& result = *trace_;
+    const Index edge = result.edge;
+    const std::array<Index, 2> faces{layout_.face(2 * edge), layout_.face(2 * edge + 1)};
+    const std::array<Index, 2> places{side_place(layout_, 2 * edge),
+                                      side_place(layout_, 2 * edge + 1)};
     // The union begins where the path ends.
     const auto left_count = static_cast<Index>(layout_.face_halfedges(faces[0]).size());
     const auto right_count = static_cast<Index>(layout_.face_halfedges(faces[1]).size());
     for (std::size_t side = 0; side < 2; ++side) {
-        auto path = traced_path(side, result.unions[side], left_count - 1, *domain);
+        auto path = traced_path(side, result.unions[side], left_count - 1, union_domain_);
         if (!path) {
-            return std::nullopt;
+            return false;
         }
         result.paths[side] = std::move(*path);
     }
     result.halves[0].resize(left_count);
     for (Index k = 0; k < left_count; ++k) {
-        result.halves[0][(places[0] + 1 + k) % left_count] = (*domain)[k];
+        result.halves[0][(places[0] + 1 + k) % left_count] = union_domain_[k];
     }
     result.halves[1].resize(right_count);
     for (Index k = 0; k < right_count; ++k) {
         result.halves[1][(places[1] + 1 + k) % right_count] =
-            (*domain)[(left_count - 1 + k) % domain->size()];
+            union_domain_[(left_count - 1 + k) % union_domain_.size()];
     }
-    return result;
+    return true;
 }
 
 std::optional<SeamOptimisation::Path> SeamOptimisation::traced_path(std::size_t side,
@@ -427,59 +510,81 @@ std::optional<PlacedTarget> SeamOptimisation::retraced(std::size_t side,
         std::move(domains), std::move(placed), std::move(shares));
 }
 
-Index SeamOptimisation::compare(const std::vector<Trace>& traces)
+std::optional<PlacedTarget> SeamOptimisation::attempt(std::size_t side,
+                                                      const std::vector<Trace>& traces) const
 {
-    if (traces.empty()) {
-        return 0;
+    std::vector<Path> paths = paths_of(side);
+    for (const Trace& trace : traces) {
+        paths[trace.edge] = trace.paths[side];
     }
-    std::array<std::vector<Path>, 2> paths{paths_of(0), paths_of(1)};
-    const auto attempt = [&](const std::vector<Trace>& chosen) {
-        std::vector<PlacedTarget> moved;
-        for (std::size_t side = 0; side < 2; ++side) {
-            std::vector<Path> all = paths[side];
-            for (const Trace& trace : chosen) {
-                all[trace.edge] = trace.paths[side];
-            }
-            auto made = retraced(side, all, chosen);
-            if (!made) {
-                moved.clear();
-                break;
-            }
-            moved.push_back(std::move(*made));
-        }
-        return moved;
-    };
-    std::vector<PlacedTarget> moved = attempt(traces);
-    if (moved.empty()) {
+    return retraced(side, paths, traces);
+}
+
+/// Traces of the next attempt on one target.
+void SeamOptimisation::place()
+{
+    if (attempts_.empty()) {
+        stage_ = Stage::choose;
+        return;
+    }
+    auto made = attempt(moved_.size(), attempts_.back());
+    if (!made) {
         // One of them does not fit; the others may.
-        if (traces.size() == 1) {
-            return 0;
+        moved_.clear();
+        const std::vector<Trace> traces = std::move(attempts_.back());
+        attempts_.pop_back();
+        if (traces.size() > 1) {
+            const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
+            attempts_.emplace_back(middle, traces.end());
+            attempts_.emplace_back(traces.begin(), middle);
         }
-        const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
-        const Index kept = compare({traces.begin(), middle});
-        return kept + compare({middle, traces.end()});
+        return;
+    }
+    moved_.push_back(std::move(*made));
+    if (moved_.size() == 2) {
+        optimisation_ =
+            std::make_unique<MapOptimisation>(layout_, moved_[0], moved_[1], judged_by_);
+        patch_rounds_ = 0;
+        stage_ = Stage::improve;
+    }
+}
+
+/// A step of the rounds in the patches beside new paths.
+void SeamOptimisation::improve()
+{
+    if (optimisation_->step()) {
+        return;
+    }
+    if (patch_rounds_++ == kPatchRounds) {
+        optimisation_.reset();
+        stage_ = Stage::judge;
+        return;
     }
     // Other chains stay, as what is beside them may not be kept.
     std::vector<bool> faces(layout_.face_count(), false);
     std::vector<bool> edges(layout_.edge_count(), false);
-    for (const Trace& trace : traces) {
+    for (const Trace& trace : attempts_.back()) {
         edges[trace.edge] = true;
         faces[layout_.face(2 * trace.edge)] = faces[layout_.face(2 * trace.edge + 1)] = true;
     }
-    MapOptimisation optimisation(layout_, moved[0], moved[1], judged_by_);
-    for (int round = 0; round < kPatchRounds; ++round) {
-        optimisation.round(faces, edges);
-    }
+    optimisation_->begin_round(std::move(faces), std::move(edges));
+}
+
+/// Keeps those traces of an attempt that lower the energy of their patches.
+void SeamOptimisation::judge()
+{
+    const std::vector<Trace> traces = std::move(attempts_.back());
+    attempts_.pop_back();
     std::vector<Trace> better;
     std::vector<double> energies = energies_;
     for (const Trace& trace : traces) {
         double area = 0;
         for (const Index h : {2 * trace.edge, 2 * trace.edge + 1}) {
             const Index face = layout_.face(h);
-            const std::vector<Vec3> x = moved[0].positions(face);
-            energies[face] = patch_energy(moved[0].patches()[face], x, moved[1].patches()[face],
-                                          moved[1].positions(face), scale_);
-            for (const auto& c : moved[0].patches()[face].map.corners) {
+            const std::vector<Vec3> x = moved_[0].positions(face);
+            energies[face] = patch_energy(moved_[0].patches()[face], x, moved_[1].patches()[face],
+                                          moved_[1].positions(face), scale_);
+            for (const auto& c : moved_[0].patches()[face].map.corners) {
                 area += (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]).norm() / 2;
             }
         }
@@ -490,40 +595,49 @@ Index SeamOptimisation::compare(const std::vector<Trace>& traces)
             better.push_back(trace);
         }
     }
-    if (better.empty()) {
-        return 0;
-    }
-    if (better.size() < traces.size()) {
-        // Again, with these alone; their maps are those that were just found.
-        std::vector<PlacedTarget> chosen = attempt(better);
-        if (chosen.empty()) {
-            return 0;
-        }
-        for (std::size_t side = 0; side < 2; ++side) {
-            for (const Trace& trace : better) {
-                chosen[side].set_shares(trace.edge, moved[side].shares()[trace.edge]);
-                for (const Index h : {2 * trace.edge, 2 * trace.edge + 1}) {
-                    const Index face = layout_.face(h);
-                    const auto same = transferred(moved[side].patches()[face],
-                                                  chosen[side].patches()[face].patch);
-                    if (!same || same->map.corners != chosen[side].patches()[face].map.corners) {
-                        return 0;
-                    }
-                    chosen[side].set_points(face, same->map.points);
-                }
+    if (better.size() == traces.size() || (!better.empty() && narrow_to(better))) {
+        for (const Trace& trace : better) {
+            for (const Index h : {2 * trace.edge, 2 * trace.edge + 1}) {
+                energies_[layout_.face(h)] = energies[layout_.face(h)];
             }
         }
-        moved = std::move(chosen);
-    }
-    for (const Trace& trace : better) {
-        for (const Index h : {2 * trace.edge, 2 * trace.edge + 1}) {
-            energies_[layout_.face(h)] = energies[layout_.face(h)];
+        for (std::size_t side = 0; side < 2; ++side) {
+            *targets_[side] = std::move(moved_[side]);
         }
+        kept_ += static_cast<Index>(better.size());
+    }
+    moved_.clear();
+    stage_ = Stage::place;
+}
+
+/// Makes what has been moved anew with some of its new paths alone; their maps are those that were
+/// found. False if they do not fit.
+bool SeamOptimisation::narrow_to(const std::vector<Trace>& traces)
+{
+    std::vector<PlacedTarget> chosen;
+    for (std::size_t side = 0; side < 2; ++side) {
+        auto made = attempt(side, traces);
+        if (!made) {
+            return false;
+        }
+        chosen.push_back(std::move(*made));
     }
     for (std::size_t side = 0; side < 2; ++side) {
-        *targets_[side] = std::move(moved[side]);
+        for (const Trace& trace : traces) {
+            chosen[side].set_shares(trace.edge, moved_[side].shares()[trace.edge]);
+            for (const Index h : {2 * trace.edge, 2 * trace.edge + 1}) {
+                const Index face = layout_.face(h);
+                const auto same =
+                    transferred(moved_[side].patches()[face], chosen[side].patches()[face].patch);
+                if (!same || same->map.corners != chosen[side].patches()[face].map.corners) {
+                    return false;
+                }
+                chosen[side].set_points(face, same->map.points);
+            }
+        }
     }
-    return static_cast<Index>(better.size());
+    moved_ = std::move(chosen);
+    return true;
 }
 
 }  // namespace layout_embedding

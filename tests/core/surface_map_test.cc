@@ -336,6 +336,44 @@ TEST(SurfaceMap, moves_the_paths_of_both_targets_to_lower_the_energy_and_keeps_e
     EXPECT_GE(moved, 2);
 }
 
+TEST(SurfaceMapJob, works_in_small_steps_and_ends_as_far_as_it_is_at_any_of_them)
+{
+    const EmbeddingProblem problem = near(zoo::cube(), zoo::stretched_sphere(2, Vec3(1, 2, 1)));
+    const MappedTarget a = embed(problem);
+    const MappedTarget b = embed(near(zoo::cube(), zoo::bumpy_sphere(2, 4)));
+    SurfaceMapJob whole(problem.layout, a, b, {3, 1});
+    std::size_t steps = 1;
+    double progress = 0;
+    for (; whole.step(); ++steps) {
+        EXPECT_GE(whole.progress(), progress);
+        // Only rounds that would gain nothing are passed over.
+        EXPECT_LT(whole.progress(), progress + 0.4);
+        progress = whole.progress();
+    }
+    EXPECT_EQ(whole.progress(), 1);
+    const auto best = whole.take();
+    ASSERT_TRUE(best.ok()) << best.error().message;
+    // Far more than one for each round and pass.
+    EXPECT_GT(steps, 200U);
+    double energy = std::numeric_limits<double>::infinity();
+    for (const double share : {0.0, 0.1, 0.3, 0.6, 0.95}) {
+        SurfaceMapJob part(problem.layout, a, b, {3, 1});
+        for (std::size_t i = 0; i < static_cast<std::size_t>(share * double(steps)); ++i) {
+            ASSERT_TRUE(part.step());
+        }
+        part.end_optimisation();
+        while (part.step()) {
+        }
+        const auto map = part.take();
+        ASSERT_TRUE(map.ok()) << map.error().message;
+        expect_common_refinement(*map);
+        EXPECT_LE(map->distortion().mean_energy, energy);
+        EXPECT_GE(map->distortion().mean_energy, best->distortion().mean_energy);
+        energy = map->distortion().mean_energy;
+    }
+    EXPECT_LT(energy, best->first_distortion().mean_energy);
+}
+
 TEST(MapCheck, refuses_what_is_not_one_to_one)
 {
     const EmbeddingProblem problem = near(zoo::cube(), zoo::bumpy_sphere(2, 2), 0.1);
