@@ -711,6 +711,10 @@ const PathGraph* EmbedJob::graph() const
 {
     return implementation_->graph.get();
 }
+std::span<const double> EmbedJob::edge_costs() const
+{
+    return implementation_->edge_costs;
+}
 
 Polylines EmbedJob::paths() const
 {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/landmark_doubts.hh"
@@ -207,6 +208,9 @@ public:
     Polylines paths() const;
     /// Null before the prepare phase is over.
     const PathGraph* graph() const;
+    /// As in StraighteningOptions: empty unless paths are drawn to sharp edges. Lives with the
+    /// graph.
+    std::span<const double> edge_costs() const;
 
 private:
     struct Implementation;

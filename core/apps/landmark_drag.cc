@@ -41,9 +41,11 @@ Length length_of(const PathGraph& graph, std::span<const Index> darts)
 }  // namespace
 
 LandmarkDrag::LandmarkDrag(EmbeddingProblem problem, const PathGraph& graph,
-                           const WeakEmbedding& embedding, Index layout_vertex)
+                           std::span<const double> edge_costs, const WeakEmbedding& embedding,
+                           Index layout_vertex)
     : problem_(std::move(problem)),
       graph_(graph),
+      edge_costs_(edge_costs),
       layout_vertex_(layout_vertex),
       embedding_(embedding),
       order_(embedding.paths.size()),
@@ -175,14 +177,16 @@ std::optional<LandmarkDrag::Attempt> LandmarkDrag::embed(const EmbeddingProblem&
 Polylines LandmarkDrag::paths() const
 {
     Polylines lines;
-    auto form = normal_form_of(problem_, graph_, embedding_);
+    auto form = normal_form_of(problem_, graph_, embedding_, edge_costs_);
     if (!form) {
         for (Index edge = 0; edge < embedding_.paths.size(); ++edge) {
             lines.add(graph_, edge, embedding_.paths[edge].darts);
         }
         return lines;
     }
-    Straightening straightening(std::move(*form), problem_.landmarks);
+    StraighteningOptions options;
+    options.edge_costs = edge_costs_;
+    Straightening straightening(std::move(*form), problem_.landmarks, options);
     for (Index left = kPassesPerEdge * problem_.layout->edge_count(); left > 0; --left) {
         if (!straightening.step()) {
             break;

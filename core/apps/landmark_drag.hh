@@ -24,9 +24,10 @@ namespace layout_embedding {
 /// detours, the landmark's own go first and the others make room, if that is shorter in all.
 class LandmarkDrag {
 public:
-    /// `embedding` is one of the whole layout. Keeps a reference to `graph`, that of a job for
-    /// `problem`, and to the target.
-    LandmarkDrag(EmbeddingProblem problem, const PathGraph& graph, const WeakEmbedding& embedding,
+    /// `embedding` is one of the whole layout. Keeps references to `graph` and `edge_costs`, those
+    /// of a job for `problem`, and to the target.
+    LandmarkDrag(EmbeddingProblem problem, const PathGraph& graph,
+                 std::span<const double> edge_costs, const WeakEmbedding& embedding,
                  Index layout_vertex);
 
     Index layout_vertex() const { return layout_vertex_; }
@@ -41,7 +42,8 @@ public:
     const WeakEmbedding& embedding() const { return embedding_; }
     /// In target units and the path-graph metric.
     double cost() const;
-    /// The paths, pulled straight (nearly as far as a job does) for the eye.
+    /// The paths, pulled straight (nearly as far as a job does) for the eye; those that run along
+    /// edges of lower cost stay on them.
     Polylines paths() const;
 
 private:
@@ -65,6 +67,7 @@ private:
 
     EmbeddingProblem problem_;
     const PathGraph& graph_;
+    std::span<const double> edge_costs_;
     Index layout_vertex_;
     WeakEmbedding embedding_;
     std::vector<Index> order_;

@@ -3,7 +3,10 @@
 #include <string>
 
 #include "apps/embed_job.hh"
+#include "apps/landmark_drag.hh"
 #include "base/random.hh"
+#include "embedding/realisation.hh"
+#include "embedding/weak_to_normal_form.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
 #include "patches/patch_shape.hh"
@@ -167,6 +170,69 @@ TEST(FeaturePaths, stay_on_curved_ones_that_a_shorter_way_leaves)
             EXPECT_LT(chain_length(refined, refined.chains[e]), 0.98 * arc);
         }
     }
+}
+
+OnEdges lines_on_edges(const Polylines& lines)
+{
+    OnEdges sum;
+    for (std::size_t line = 1; line < lines.offsets.size(); ++line) {
+        for (Index i = lines.offsets[line - 1] + 1; i < lines.offsets[line]; ++i) {
+            sum.add(lines.points[i - 1], lines.points[i]);
+        }
+    }
+    return sum;
+}
+
+TEST(FeaturePaths, stay_on_sharp_edges_while_a_landmark_is_dragged)
+{
+    PolygonMesh target = zoo::triangulated(wide_cube());
+    for (int i = 0; i < 4; ++i) {
+        target = zoo::subdivided(target);
+    }
+    const PolygonMesh layout = wide_cube();
+    const EmbeddingProblem problem =
+        test::problem_of(layout, target, zoo::displaced_landmarks(layout, target, 0.2, 2));
+    const EmbedJob job = embedded(problem, 0.5);
+    const EmbedJob plain = embedded(problem, 0);
+    LandmarkDrag drag(problem, *job.graph(), job.edge_costs(), job.result().weak, 3);
+    LandmarkDrag plain_drag(problem, *plain.graph(), plain.edge_costs(), plain.result().weak, 3);
+    Random random(8);
+    OnEdges of_drag;
+    OnEdges of_plain_drag;
+    OnEdges of_jobs;
+    int moves = 0;
+    for (Index place = problem.landmarks[3]; moves < 6;) {
+        // To a neighbour, as a hand leads it.
+        Index halfedge = problem.target->outgoing(place);
+        for (std::uint64_t turns = random.below(4); turns > 0; --turns) {
+            halfedge = problem.target->rotated_ccw(halfedge);
+        }
+        place = problem.target->head(halfedge);
+        if (!drag.move_to(place) || !plain_drag.move_to(place)) {
+            continue;
+        }
+        ++moves;
+        const auto form =
+            normal_form_of(drag.problem(), *job.graph(), drag.embedding(), job.edge_costs());
+        ASSERT_TRUE(form.ok()) << form.error().message;
+        const auto refined = cut_along(*problem.layout, *form);
+        ASSERT_TRUE(refined.ok()) << refined.error().message;
+        test::expect_valid(drag.problem(), *job.graph(), drag.embedding(), *refined);
+
+        EmbedJob anew = embedded(drag.problem(), 0.5);
+        EXPECT_GE(drag.cost(), anew.result().lower_bound * (1 - 1e-12));
+        EXPECT_LE(drag.cost(), 1.05 * anew.result().cost);
+        const auto add = [](OnEdges& sum, const OnEdges& one) {
+            sum.length += one.length;
+            sum.all += one.all;
+        };
+        add(of_drag, lines_on_edges(drag.paths()));
+        add(of_plain_drag, lines_on_edges(plain_drag.paths()));
+        add(of_jobs, chains_on_edges(reshaped(anew, PathShape::shortened)));
+    }
+    EXPECT_GT(of_jobs.share(), 0.3);
+    EXPECT_GT(of_drag.length, 0.95 * of_jobs.length);
+    EXPECT_LT(of_plain_drag.share(), 0.5 * of_drag.share());
 }
 
 TEST(FeaturePaths, every_embedding_in_such_a_metric_is_valid_in_every_shape)

@@ -51,7 +51,7 @@ TEST(LandmarkDrag, gives_a_valid_embedding_at_every_place)
         const EmbedJob job = solved(problem, Algorithm::greedy);
         ASSERT_TRUE(job.result().refined.has_value());
         const Index vertex = static_cast<Index>(random.below(problem.landmarks.size()));
-        LandmarkDrag drag(problem, *job.graph(), job.result().weak, vertex);
+        LandmarkDrag drag(problem, *job.graph(), job.edge_costs(), job.result().weak, vertex);
         for (const Index place : stroll(*problem.target, problem.landmarks[vertex], 8, random)) {
             const std::vector<Index> before = drag.problem().landmarks;
             if (!drag.move_to(place)) {
@@ -90,7 +90,7 @@ TEST(LandmarkDrag, stays_near_the_best_embedding_on_a_smooth_target)
     const auto problem =
         test::problem_of(layout, target, zoo::displaced_landmarks(layout, target, 0, 5));
     const EmbedJob job = solved(problem);
-    LandmarkDrag drag(problem, *job.graph(), job.result().weak, 0);
+    LandmarkDrag drag(problem, *job.graph(), job.edge_costs(), job.result().weak, 0);
     Random random(6);
     int moves = 0;
     for (const Index place : stroll(*problem.target, problem.landmarks[0], 12, random)) {
@@ -116,7 +116,7 @@ TEST(LandmarkDrag, stays_where_it_is_rather_than_on_another_landmark_or_off_the_
     const EmbedJob job = solved(problem);
     ASSERT_TRUE(job.result().refined.has_value());
     for (Index v = 0; v < problem.landmarks.size(); ++v) {
-        LandmarkDrag drag(problem, *job.graph(), job.result().weak, v);
+        LandmarkDrag drag(problem, *job.graph(), job.edge_costs(), job.result().weak, v);
         const double cost = drag.cost();
         const bool on_rim = problem.target->is_boundary_vertex(problem.landmarks[v]);
         int refused = 0;

@@ -16,7 +16,8 @@ std::uint32_t boundary_drag_create(std::uint32_t job, std::uint32_t layout_verte
             throw InvalidHandle("there is no embedding with such a landmark");
         }
         return handles<LandmarkDrag>().add(std::make_unique<LandmarkDrag>(
-            embedding.problem(), *embedding.graph(), embedding.result().weak, layout_vertex));
+            embedding.problem(), *embedding.graph(), embedding.edge_costs(),
+            embedding.result().weak, layout_vertex));
     });
 }
 
