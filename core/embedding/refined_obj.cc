@@ -4,7 +4,7 @@
 
 namespace layout_embedding {
 
-std::string write_refined_obj(const RefinedMesh& refined)
+std::string write_refined_obj(const RefinedMesh& refined, const MeshAttributes& attributes)
 {
     PolygonMesh mesh;
     mesh.positions = refined.positions;
@@ -12,7 +12,7 @@ std::string write_refined_obj(const RefinedMesh& refined)
     for (std::size_t end = 3; end <= refined.corners.size(); end += 3) {
         mesh.face_offsets.push_back(static_cast<Index>(end));
     }
-    return write_obj(mesh, {refined.triangle_patches, "patch_", refined.chains});
+    return write_obj(mesh, {refined.triangle_patches, "patch_", refined.chains, &attributes});
 }
 
 }  // namespace layout_embedding

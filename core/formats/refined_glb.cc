@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "base/bytes.hh"
 #include "base/number_text.hh"
@@ -103,9 +104,53 @@ void add_ball(const Vec3& centre, double radius, Surface& surface)
     }
 }
 
+/// The vertices that formats need where a vertex is all that its corners have: several of one where
+/// their values differ. Those of the refined mesh come first, in its order.
+struct SplitVertices {
+    /// Per vertex: that of the refined mesh, and its values.
+    std::vector<Index> origins;
+    std::vector<Index> places;
+    std::vector<Index> colours;
+    /// Per corner.
+    std::vector<Index> corners;
+
+    SplitVertices(const RefinedMesh& refined, const MeshAttributes& attributes)
+        : origins(refined.positions.size()), corners(refined.corners)
+    {
+        std::iota(origins.begin(), origins.end(), Index{0});
+        const auto id_at = [](const CornerValues& values, std::size_t corner) {
+            return values.empty() ? kNone : values.ids[corner];
+        };
+        std::map<std::array<Index, 3>, Index> others;
+        std::vector<bool> seen(origins.size(), false);
+        places.assign(origins.size(), kNone);
+        colours.assign(origins.size(), kNone);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Index vertex = corners[i];
+            const Index place = id_at(attributes.texture_coordinates, i);
+            const Index colour = id_at(attributes.colours, i);
+            if (!seen[vertex]) {
+                seen[vertex] = true;
+                places[vertex] = place;
+                colours[vertex] = colour;
+            } else if (places[vertex] != place || colours[vertex] != colour) {
+                const auto [found, fresh] =
+                    others.try_emplace({vertex, place, colour}, static_cast<Index>(origins.size()));
+                if (fresh) {
+                    origins.push_back(vertex);
+                    places.push_back(place);
+                    colours.push_back(colour);
+                }
+                corners[i] = found->second;
+            }
+        }
+    }
+};
+
 class GlbWriter {
 public:
-    explicit GlbWriter(const RefinedMesh& refined) : refined_(refined)
+    GlbWriter(const RefinedMesh& refined, const MeshAttributes& attributes)
+        : refined_(refined), attributes_(attributes)
     {
         low_ = high_ = refined.positions.empty() ? Vec3(0, 0, 0) : refined.positions[0];
         for (const Vec3& p : refined.positions) {
@@ -121,6 +166,9 @@ public:
             add_material(colour, 0.8);
         }
         const Index path_material = add_material(kPathColour, 0.5);
+        if (!attributes_.colours.empty()) {
+            white_material_ = add_material({255, 255, 255}, 0.8);
+        }
         add_patches();
         add_paths(path_material);
         return assemble();
@@ -204,12 +252,13 @@ private:
         return add_accessor(add_view(begin, kElementArrayBuffer), 5125, indices.size(), "SCALAR");
     }
 
+    /// `attributes`: further ones, each with a comma before.
     void add_node(const std::string& name, Index positions, Index normals, Index indices,
-                  Index material)
+                  Index material, const std::string& attributes = {})
     {
         next(meshes_) += "{\"name\":\"" + name + "\",\"primitives\":[{\"attributes\":{" +
                          "\"POSITION\":" + std::to_string(positions) +
-                         ",\"NORMAL\":" + std::to_string(normals) +
+                         ",\"NORMAL\":" + std::to_string(normals) + attributes +
                          "},\"indices\":" + std::to_string(indices) +
                          ",\"material\":" + std::to_string(material) + "}]}";
         next(nodes_) += "{\"name\":\"" + name + "\",\"mesh\":" + std::to_string(node_count_) + "}";
@@ -232,18 +281,63 @@ private:
         for (Vec3& normal : normals) {
             normal = normal.norm() > 0 ? normal.normalized() : Vec3(0, 0, 1);
         }
-        const Index positions = add_vectors(refined_.positions, centre_, true);
-        const Index normal_accessor = add_vectors(normals, Vec3(0, 0, 0), false);
+        const SplitVertices split(refined_, attributes_);
+        std::vector<Vec3> positions;
+        std::vector<Vec3> split_normals;
+        for (const Index vertex : split.origins) {
+            positions.push_back(refined_.positions[vertex]);
+            split_normals.push_back(normals[vertex]);
+        }
+        const Index position_accessor = add_vectors(positions, centre_, true);
+        const Index normal_accessor = add_vectors(split_normals, Vec3(0, 0, 0), false);
+        const std::string more = add_attributes(split);
         const std::vector<Index> colours = triangle_colours(refined_);
         for (const auto& [patch, members] : triangles) {
             std::vector<Index> indices;
             for (const Index t : members) {
-                indices.insert(indices.end(), &refined_.corners[3 * t],
-                               &refined_.corners[3 * t] + 3);
+                indices.insert(indices.end(), &split.corners[3 * t], &split.corners[3 * t] + 3);
             }
-            add_node(patch == kNone ? "outside" : "patch_" + std::to_string(patch), positions,
-                     normal_accessor, add_indices(indices), colours[members.front()]);
+            // Colours of vertices would be mixed with the material's.
+            add_node(patch == kNone ? "outside" : "patch_" + std::to_string(patch),
+                     position_accessor, normal_accessor, add_indices(indices),
+                     attributes_.colours.empty() ? colours[members.front()] : white_material_,
+                     more);
         }
+    }
+
+    /// Returns the attributes of all patches' primitives.
+    std::string add_attributes(const SplitVertices& split)
+    {
+        std::string more;
+        if (!attributes_.texture_coordinates.empty()) {
+            // v points downwards in glTF.
+            const Index accessor = add_values(
+                split.places, attributes_.texture_coordinates, {0, 1},
+                [](std::size_t i, double number) { return i == 1 ? 1 - number : number; });
+            more += ",\"TEXCOORD_0\":" + std::to_string(accessor);
+        }
+        if (!attributes_.colours.empty()) {
+            const Index accessor =
+                add_values(split.colours, attributes_.colours, {1, 1, 1, 1},
+                           [](std::size_t, double number) { return std::clamp(number, 0.0, 1.0); });
+            more += ",\"COLOR_0\":" + std::to_string(accessor);
+        }
+        return more;
+    }
+
+    template <typename Written>
+    Index add_values(const std::vector<Index>& ids, const CornerValues& values,
+                     const std::array<double, 4>& otherwise, Written written)
+    {
+        const std::size_t begin = binary_.size();
+        for (const Index id : ids) {
+            for (std::size_t i = 0; i < values.size; ++i) {
+                const double number = id == kNone ? otherwise[i] : values.value(id)[i];
+                append_bytes(binary_, static_cast<float>(written(i, number)));
+            }
+        }
+        return add_accessor(add_view(begin, kArrayBuffer), 5126, ids.size(),
+                            "VEC" + std::to_string(values.size));
     }
 
     void add_surface(const std::string& name, const Surface& surface, Index material)
@@ -319,6 +413,8 @@ private:
     }
 
     const RefinedMesh& refined_;
+    const MeshAttributes& attributes_;
+    Index white_material_ = kNone;
     Vec3 low_;
     Vec3 high_;
     Vec3 centre_;
@@ -336,9 +432,9 @@ private:
 
 }  // namespace
 
-std::string write_refined_glb(const RefinedMesh& refined)
+std::string write_refined_glb(const RefinedMesh& refined, const MeshAttributes& attributes)
 {
-    return GlbWriter(refined).write();
+    return GlbWriter(refined, attributes).write();
 }
 
 }  // namespace layout_embedding

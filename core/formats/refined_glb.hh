@@ -3,6 +3,7 @@
 #include <string>
 
 #include "embedding/refined_mesh.hh"
+#include "mesh/mesh_attributes.hh"
 
 namespace layout_embedding {
 
@@ -11,6 +12,11 @@ namespace layout_embedding {
 /// every chain, and `landmarks`, balls at the chains' ends. Vertices of all patches share one array
 /// in the order of the refined mesh, with normals; positions are single precision about the centre
 /// of the bounding box, which is the translation of the root node.
-std::string write_refined_glb(const RefinedMesh& refined);
+///
+/// With `attributes` of the refined mesh: TEXCOORD_0 ((0, 0) of an image's upper left corner for
+/// none) and COLOR_0 (white for none, on a white material instead of the patches' colours), in
+/// single precision; vertices with several values are there several times, the further ones behind
+/// all others.
+std::string write_refined_glb(const RefinedMesh& refined, const MeshAttributes& attributes = {});
 
 }  // namespace layout_embedding

@@ -1,5 +1,8 @@
 #include "formats/refined_vtp.hh"
 
+#include <array>
+#include <span>
+
 #include "base/number_text.hh"
 
 namespace layout_embedding {
@@ -7,7 +10,9 @@ namespace {
 
 class VtpWriter {
 public:
-    explicit VtpWriter(const RefinedMesh& refined) : refined_(refined) {}
+    VtpWriter(const RefinedMesh& refined, const MeshAttributes& attributes)
+        : refined_(refined), attributes_(attributes)
+    {}
 
     std::string write()
     {
@@ -19,7 +24,9 @@ public:
             "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
             std::to_string(refined_.positions.size()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
             std::to_string(lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-            std::to_string(triangles) + "\">\n<CellData Scalars=\"patch\">\n";
+            std::to_string(triangles) + "\">\n";
+        write_colours();
+        text_ += "<CellData Scalars=\"patch\">\n";
         write_cells(
             "patch", [](std::size_t) { return kNone; },
             [&](std::size_t t) { return refined_.triangle_patches[t]; });
@@ -31,6 +38,9 @@ public:
             [&](std::size_t t) {
                 return t < refined_.triangle_faces.size() ? refined_.triangle_faces[t] : kNone;
             });
+        write_names("group", attributes_.groups);
+        write_names("material", attributes_.materials);
+        write_texture();
         text_ += "</CellData>\n<Points>\n";
         open("Float64", "Points", 3);
         for (const Vec3& position : refined_.positions) {
@@ -82,6 +92,58 @@ private:
     void close() { text_ += "</DataArray>\n"; }
     void append(Index id) { text_ += id == kNone ? "-1 " : std::to_string(id) + " "; }
 
+    void append(std::span<const double> numbers)
+    {
+        for (const double number : numbers) {
+            append_number(text_, number);
+            text_ += ' ';
+        }
+        text_ += '\n';
+    }
+
+    void write_colours()
+    {
+        const CornerValues& colours = attributes_.colours;
+        if (colours.empty()) {
+            return;
+        }
+        const std::array<double, 4> white{1, 1, 1, 1};
+        text_ += "<PointData>\n";
+        open("Float64", "colour", static_cast<int>(colours.size));
+        for (const Index id : values_of_vertices(colours, refined_.corners,
+                                                 static_cast<Index>(refined_.positions.size()))) {
+            append(id == kNone ? std::span(white).first(colours.size) : colours.value(id));
+        }
+        close();
+        text_ += "</PointData>\n";
+    }
+
+    void write_names(const std::string& what, const FaceNames& names)
+    {
+        if (!names.empty()) {
+            write_cells(
+                what, [](std::size_t) { return kNone; },
+                [&](std::size_t t) { return names.ids[t]; });
+        }
+    }
+
+    void write_texture()
+    {
+        const CornerValues& places = attributes_.texture_coordinates;
+        if (places.empty()) {
+            return;
+        }
+        open("Float64", "texture_coordinates", 6);
+        const std::array<double, 6> none{};
+        for (std::size_t line = 0; line < refined_.chains.size(); ++line) {
+            append(none);
+        }
+        for (std::size_t i = 0; i < places.ids.size(); ++i) {
+            append(places.ids[i] == kNone ? std::span(none).first(2) : places.value(places.ids[i]));
+        }
+        close();
+    }
+
     template <typename OfLine, typename OfTriangle>
     void write_cells(const std::string& name, OfLine of_line, OfTriangle of_triangle)
     {
@@ -98,14 +160,15 @@ private:
     }
 
     const RefinedMesh& refined_;
+    const MeshAttributes& attributes_;
     std::string text_;
 };
 
 }  // namespace
 
-std::string write_refined_vtp(const RefinedMesh& refined)
+std::string write_refined_vtp(const RefinedMesh& refined, const MeshAttributes& attributes)
 {
-    return VtpWriter(refined).write();
+    return VtpWriter(refined, attributes).write();
 }
 
 }  // namespace layout_embedding

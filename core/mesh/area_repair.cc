@@ -16,11 +16,12 @@ namespace {
 /// alone until the next pass: the halfedges are those of the beginning.
 class MendingRound {
 public:
-    MendingRound(PolygonMesh& mesh, std::vector<Index>& representatives)
+    MendingRound(PolygonMesh& mesh, std::vector<Index>& representatives, FaceOrigins& origins)
         : mesh_(mesh),
           before_(mesh),
           halfedges_(before_),
           representatives_(representatives),
+          origins_(origins),
           touched_(mesh.vertex_count(), false),
           dropped_(mesh.face_count(), false)
     {}
@@ -188,10 +189,31 @@ private:
         if (!(normal(a, d, c).dot(wanted) > 0) || !(normal(d, b, c).dot(wanted) > 0)) {
             return false;
         }
+        const Vec3 along = position(b) - position(a);
+        follow_flip(h, (position(c) - position(a)).dot(along) / along.squaredNorm());
         set_face(halfedges_.face(h), {a, d, c});
         set_face(halfedges_.face(twin), {d, b, c});
         touch(std::array<Index, 4>{a, b, c, d});
         return true;
+    }
+
+    /// Both new faces lie in the one across h, the third corner at the share `t` of h.
+    void follow_flip(Index h, double t)
+    {
+        const Index face = halfedges_.face(h);
+        const Index across = halfedges_.face(halfedges_.opposite(h));
+        const FaceOrigins::Places places = origins_.places(across);
+        const std::size_t k = halfedges_.opposite(h) - 3 * across;
+        const auto& at_b = places[k];
+        const auto& at_a = places[(k + 1) % 3];
+        const auto& at_d = places[(k + 2) % 3];
+        std::array<double, 3> at_c{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            at_c[i] = (1 - t) * at_a[i] + t * at_b[i];
+        }
+        const Index origin = origins_.face(across);
+        origins_.set(face, origin, {at_a, at_d, at_c});
+        origins_.set(across, origin, {at_d, at_b, at_c});
     }
 
     /// Drops a triangle whose longest edge lies on the boundary and whose third corner, on that
@@ -224,24 +246,27 @@ private:
             }
         }
         mesh_ = std::move(result);
+        origins_.keep_if([&](Index f) { return !dropped_[f]; });
     }
 
     PolygonMesh& mesh_;
     const PolygonMesh before_;
     const PolygonHalfedges halfedges_;
     std::vector<Index>& representatives_;
+    FaceOrigins& origins_;
     std::vector<bool> touched_;
     std::vector<bool> dropped_;
 };
 
 }  // namespace
 
-Index mend_triangles_without_area(PolygonMesh& mesh, std::vector<Index>& representatives)
+Index mend_triangles_without_area(PolygonMesh& mesh, std::vector<Index>& representatives,
+                                  FaceOrigins& origins)
 {
     constexpr int kMaxRounds = 100;
     Index mended = 0;
     for (int round = 0; round < kMaxRounds; ++round) {
-        const Index now = MendingRound(mesh, representatives).run();
+        const Index now = MendingRound(mesh, representatives, origins).run();
         if (now == 0) {
             break;
         }

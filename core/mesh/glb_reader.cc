@@ -61,7 +61,8 @@ private:
 
 class GlbReader {
 public:
-    GlbReader(std::string_view bytes, std::string_view subject) : bytes_(bytes), subject_(subject)
+    GlbReader(std::string_view bytes, std::string_view subject, MeshAttributes* attributes)
+        : bytes_(bytes), subject_(subject), attributes_(attributes)
     {}
 
     Result<PolygonMesh> read()
@@ -72,6 +73,12 @@ public:
         }
         if (!status) {
             return status.error();
+        }
+        if (attributes_ != nullptr) {
+            // Seams are closed by giving corners other vertices: their values stay.
+            attributes_->groups = groups_.take();
+            attributes_->materials = materials_.take();
+            finish(*attributes_);
         }
         return without_seams(mesh_);
     }
@@ -160,7 +167,7 @@ private:
         if (scene == nullptr) {
             // A library without a scene: every mesh as it is.
             for (const JsonValue& mesh : list(root_, "meshes")) {
-                if (const Status status = read_mesh(mesh, Matrix::Identity()); !status) {
+                if (const Status status = read_mesh(mesh, nullptr, Matrix::Identity()); !status) {
                     return status;
                 }
             }
@@ -202,7 +209,7 @@ private:
                 if (mesh == nullptr) {
                     return wrong("a node with a mesh that does not exist");
                 }
-                if (const Status status = read_mesh(*mesh, frame); !status) {
+                if (const Status status = read_mesh(*mesh, &node, frame); !status) {
                     return status;
                 }
             }
@@ -246,8 +253,16 @@ private:
         return matrix;
     }
 
-    Status read_mesh(const JsonValue& mesh, const Matrix& frame)
+    static std::string name_of(const JsonValue* named)
     {
+        const JsonValue* name = named == nullptr ? nullptr : named->find("name");
+        return name == nullptr ? std::string() : as_word(name->string);
+    }
+
+    Status read_mesh(const JsonValue& mesh, const JsonValue* node, const Matrix& frame)
+    {
+        group_ = name_of(node);
+        group_ = group_.empty() ? name_of(&mesh) : group_;
         for (const JsonValue& primitive : list(mesh, "primitives")) {
             const double mode = number_of(primitive, "mode", 4);
             if (mode < 4) {
@@ -291,6 +306,10 @@ private:
             mesh_.positions.emplace_back(frame.topLeftCorner<3, 3>() * p +
                                          frame.topRightCorner<3, 1>());
         }
+        CornerSource source;
+        if (attributes_ != nullptr) {
+            source = read_attributes(primitive, *attributes);
+        }
         Accessor indices;
         std::size_t count = positions.count;
         const bool indexed = primitive.find("indices") != nullptr;
@@ -322,6 +341,7 @@ private:
                 std::swap(places[1], places[2]);
             }
             std::array<Index, 3> corners{};
+            std::array<Index, 3> vertices{};
             for (std::size_t k = 0; k < 3; ++k) {
                 const double vertex =
                     indexed ? indices.value(places[k], 0) : static_cast<double>(places[k]);
@@ -331,15 +351,90 @@ private:
                                           std::to_string(static_cast<std::int64_t>(vertex)) +
                                           " of " + std::to_string(positions.count));
                 }
-                corners[k] = static_cast<Index>(first + static_cast<std::size_t>(vertex));
+                vertices[k] = static_cast<Index>(vertex);
+                corners[k] = static_cast<Index>(first) + vertices[k];
             }
             // Strips are turned by triangles without area.
             if (mode == 4 || (corners[0] != corners[1] && corners[1] != corners[2] &&
                               corners[2] != corners[0])) {
                 mesh_.add_face(corners);
+                if (attributes_ != nullptr) {
+                    add_attributes(vertices, source);
+                }
             }
         }
         return {};
+    }
+
+    /// The values of the vertices of a primitive, from these ids on.
+    struct CornerSource {
+        Index places = kNone;
+        Index colours = kNone;
+        std::size_t place_count = 0;
+        std::size_t colour_count = 0;
+        std::string material;
+    };
+
+    /// Arrays that cannot be read have no values that could be used.
+    CornerSource read_attributes(const JsonValue& primitive, const JsonValue& attributes)
+    {
+        CornerValues& places = attributes_->texture_coordinates;
+        CornerValues& colours = attributes_->colours;
+        places.size = 2;
+        colours.size = 4;
+        CornerSource source;
+        const auto readable = [&](const CornerValues& values, const JsonValue& json,
+                                  std::string_view type, std::size_t components) {
+            Accessor accessor;
+            const Status status = read_accessor(json, type, components, accessor);
+            if (!status || values.count() + accessor.count > most_vertices()) {
+                accessor.count = 0;
+            }
+            return accessor;
+        };
+        if (const JsonValue* json = referred(attributes, "TEXCOORD_0", "accessors")) {
+            const Accessor array = readable(places, *json, "VEC2", 2);
+            source.places = places.count();
+            source.place_count = array.count;
+            for (std::size_t v = 0; v < array.count; ++v) {
+                // v points downwards in glTF.
+                places.add(std::array<double, 2>{array.value(v, 0), 1 - array.value(v, 1)});
+            }
+        }
+        if (const JsonValue* json = referred(attributes, "COLOR_0", "accessors")) {
+            const JsonValue* type = json->find("type");
+            const bool opaque = type == nullptr || type->string != "VEC4";
+            const Accessor array =
+                readable(colours, *json, opaque ? "VEC3" : "VEC4", opaque ? 3 : 4);
+            source.colours = colours.count();
+            source.colour_count = array.count;
+            for (std::size_t v = 0; v < array.count; ++v) {
+                colours.add(std::array<double, 4>{array.value(v, 0), array.value(v, 1),
+                                                  array.value(v, 2),
+                                                  opaque ? 1 : array.value(v, 3)});
+            }
+        }
+        if (const JsonValue* material = referred(primitive, "material", "materials")) {
+            const auto id = static_cast<std::int64_t>(primitive.find("material")->number);
+            source.material = name_of(material);
+            source.material =
+                source.material.empty() ? "material_" + std::to_string(id) : source.material;
+        }
+        return source;
+    }
+
+    void add_attributes(const std::array<Index, 3>& vertices, const CornerSource& source)
+    {
+        const auto id = [](Index first, std::size_t count, Index vertex) {
+            return first == kNone ? kNone : vertex < count ? first + vertex : kUnusable;
+        };
+        for (const Index v : vertices) {
+            attributes_->texture_coordinates.ids.push_back(
+                id(source.places, source.place_count, v));
+            attributes_->colours.ids.push_back(id(source.colours, source.colour_count, v));
+        }
+        groups_.add(group_);
+        materials_.add(source.material);
     }
 
     Status read_accessor(const JsonValue& json, std::string_view type, std::size_t components,
@@ -404,13 +499,19 @@ private:
     JsonValue root_;
     std::vector<bool> visited_;
     PolygonMesh mesh_;
+    MeshAttributes* attributes_;
+    FaceNaming groups_;
+    FaceNaming materials_;
+    /// Of the mesh that is being read.
+    std::string group_;
 };
 
 }  // namespace
 
-Result<PolygonMesh> read_glb(std::string_view bytes, std::string_view subject)
+Result<PolygonMesh> read_glb(std::string_view bytes, std::string_view subject,
+                             MeshAttributes* attributes)
 {
-    return GlbReader(bytes, subject).read();
+    return GlbReader(bytes, subject, attributes).read();
 }
 
 }  // namespace layout_embedding

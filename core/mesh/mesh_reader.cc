@@ -99,7 +99,8 @@ MeshFormat format_of_file_name(std::string_view name)
     return detect;
 }
 
-Result<PolygonMesh> read_mesh(std::string_view bytes, MeshFormat format, std::string_view subject)
+Result<PolygonMesh> read_mesh(std::string_view bytes, MeshFormat format, std::string_view subject,
+                              MeshAttributes* attributes)
 {
     if (bytes.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
         bytes.remove_prefix(kByteOrderMark.size());
@@ -121,15 +122,15 @@ Result<PolygonMesh> read_mesh(std::string_view bytes, MeshFormat format, std::st
     }
     switch (content) {
         case MeshFormat::off:
-            return read_off(bytes, subject);
+            return read_off(bytes, subject, attributes);
         case MeshFormat::ply:
-            return read_ply(bytes, subject);
+            return read_ply(bytes, subject, attributes);
         case MeshFormat::stl:
             return read_stl(bytes, subject);
         case MeshFormat::glb:
-            return read_glb(bytes, subject);
+            return read_glb(bytes, subject, attributes);
         default:
-            return read_obj(bytes, subject);
+            return read_obj(bytes, subject, attributes);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/types.hh"
+#include "mesh/mesh_attributes.hh"
 #include "mesh/polygon_mesh.hh"
 
 namespace layout_embedding {
@@ -17,6 +18,9 @@ struct ObjExtras {
     std::string group_prefix = "group_";
     /// Chains of vertex ids, written as `l` lines in a group of their own, "layout_edges".
     std::span<const std::vector<Index>> chains;
+    /// Of the mesh, or null: `vt` lines, colours behind the positions of vertices (the first of
+    /// several; their opacity is left out), groups as further ones of the face, materials.
+    const MeshAttributes* attributes = nullptr;
 };
 
 /// `mesh` as Wavefront OBJ. Vertices and faces keep their order (a group is opened again wherever

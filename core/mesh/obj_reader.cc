@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <istream>
+#include <limits>
 #include <optional>
 #include <streambuf>
 #include <string>
@@ -19,14 +20,99 @@ namespace {
 /// So that an index fits an int; a file of more vertices than that is out of reach.
 constexpr int kMaxDigits = 9;
 
+/// What an OBJ file says besides places, line by line.
+class AttributeLines {
+public:
+    explicit AttributeLines(MeshAttributes& attributes) : attributes_(attributes)
+    {
+        attributes.texture_coordinates.size = 2;
+        attributes.colours.size = 3;
+    }
+
+    /// The rest of a vertex line.
+    void read_colour(std::string_view rest)
+    {
+        std::array<double, 3> colour{};
+        std::size_t count = 0;
+        while (count < 3 && take_number(rest, colour[count])) {
+            ++count;
+        }
+        // One number is a weight.
+        vertex_colours_.push_back(count == 3   ? attributes_.colours.add(colour)
+                                  : count == 2 ? kUnusable
+                                               : kNone);
+    }
+
+    /// A line of another kind than `v` and `f`.
+    void read(std::string_view keyword, std::string_view rest)
+    {
+        if (keyword == "vt") {
+            std::array<double, 2> place{std::numeric_limits<double>::quiet_NaN(), 0};
+            if (take_number(rest, place[0])) {
+                take_number(rest, place[1]);
+            }
+            attributes_.texture_coordinates.add(place);
+        } else if (keyword == "g") {
+            group_ = words(rest);
+        } else if (keyword == "usemtl") {
+            material_ = words(rest);
+        } else if (keyword == "mtllib") {
+            attributes_.material_files.push_back(words(rest));
+        }
+    }
+
+    void add_face(const tinyobj::index_t* indices, int count)
+    {
+        const auto known = std::int64_t{attributes_.texture_coordinates.count()};
+        for (int i = 0; i < count; ++i) {
+            const std::int64_t given = indices[i].texcoord_index;
+            const std::int64_t id = given > 0 ? given - 1 : known + given;
+            attributes_.texture_coordinates.ids.push_back(given == 0 ? kNone
+                                                          : id < 0   ? kUnusable
+                                                                     : static_cast<Index>(id));
+        }
+        groups_.add(group_);
+        materials_.add(material_);
+    }
+
+    void finish(const PolygonMesh& mesh)
+    {
+        attributes_.colours.ids = corner_ids(vertex_colours_, mesh.corners);
+        attributes_.groups = groups_.take();
+        attributes_.materials = materials_.take();
+        layout_embedding::finish(attributes_);
+    }
+
+private:
+    /// One blank between words, as line ends are written.
+    static std::string words(std::string_view rest)
+    {
+        std::string text;
+        for (auto word = take_token(rest); !word.empty(); word = take_token(rest)) {
+            text += text.empty() ? "" : " ";
+            text += word;
+        }
+        return text;
+    }
+
+    MeshAttributes& attributes_;
+    std::vector<Index> vertex_colours_;
+    FaceNaming groups_;
+    FaceNaming materials_;
+    std::string group_;
+    std::string material_;
+};
+
 /// The text of an OBJ file as tinyobjloader gets to see it: its `f` lines alone, one at a time,
 /// each checked before. Vertices are read here, since tinyobjloader's numbers are not correctly
 /// rounded, and so is all that it takes without a word: it stops at a bad index, lets a face of
 /// more than 255 corners wrap around, and knows no lines.
 class FaceLines : public std::streambuf {
 public:
-    FaceLines(std::string_view bytes, std::string_view subject, PolygonMesh& mesh)
-        : lines_(bytes), subject_(subject), mesh_(mesh)
+    /// `attributes` may be null.
+    FaceLines(std::string_view bytes, std::string_view subject, PolygonMesh& mesh,
+              AttributeLines* attributes)
+        : lines_(bytes), subject_(subject), mesh_(mesh), attributes_(attributes)
     {}
 
     std::int64_t line_number() const { return line_number_; }
@@ -49,6 +135,9 @@ protected:
             std::string_view line = without_leading_blanks(lines_.line());
             const std::string_view keyword = line.substr(0, line.find_first_of(" \t\\"));
             if (keyword != "v" && keyword != "f") {
+                if (attributes_ != nullptr) {
+                    attributes_->read(keyword, line.substr(keyword.size()));
+                }
                 continue;  // lines that continue such a one begin with neither
             }
             line = without_comment(joined(line)).substr(1);
@@ -102,6 +191,9 @@ private:
             return;
         }
         mesh_.positions.push_back(position);
+        if (attributes_ != nullptr) {
+            attributes_->read_colour(line);
+        }
     }
 
     /// Whether the words of a face line are indices, not too many of them.
@@ -164,6 +256,7 @@ private:
     LineScanner lines_;
     std::string subject_;
     PolygonMesh& mesh_;
+    AttributeLines* attributes_;
     std::int64_t line_number_ = 0;
     std::optional<Error> error_;
     std::string joined_;
@@ -174,6 +267,7 @@ private:
 struct FaceSink {
     PolygonMesh& mesh;
     FaceLines& lines;
+    AttributeLines* attributes;
     /// Faces with corners that were no vertices yet when they were read, and their lines.
     std::vector<std::pair<Index, std::int64_t>> forward_references;
 
@@ -201,6 +295,9 @@ struct FaceSink {
             return;
         }
         mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
+        if (attributes != nullptr) {
+            attributes->add_face(indices, count);
+        }
     }
 
     void check_forward_references()
@@ -221,11 +318,17 @@ struct FaceSink {
 
 }  // namespace
 
-Result<PolygonMesh> read_obj(std::string_view bytes, std::string_view subject)
+Result<PolygonMesh> read_obj(std::string_view bytes, std::string_view subject,
+                             MeshAttributes* attributes)
 {
     PolygonMesh mesh;
-    FaceLines lines(bytes, subject, mesh);
-    FaceSink sink{mesh, lines, {}};
+    std::optional<AttributeLines> attribute_lines;
+    if (attributes != nullptr) {
+        attribute_lines.emplace(*attributes);
+    }
+    AttributeLines* const collector = attribute_lines ? &*attribute_lines : nullptr;
+    FaceLines lines(bytes, subject, mesh, collector);
+    FaceSink sink{mesh, lines, collector, {}};
     tinyobj::callback_t callback;
     callback.index_cb = [](void* user_data, tinyobj::index_t* indices, int count) {
         static_cast<FaceSink*>(user_data)->add(indices, count);
@@ -237,6 +340,9 @@ Result<PolygonMesh> read_obj(std::string_view bytes, std::string_view subject)
     }
     if (lines.error()) {
         return *lines.error();
+    }
+    if (collector != nullptr) {
+        collector->finish(mesh);
     }
     return mesh;
 }

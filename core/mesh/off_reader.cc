@@ -1,7 +1,10 @@
 #include "mesh/off_reader.hh"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "base/line_scanner.hh"
 
@@ -10,8 +13,8 @@ namespace {
 
 class OffReader {
 public:
-    OffReader(std::string_view bytes, std::string_view subject)
-        : bytes_(bytes.size()), lines_(bytes), subject_(subject)
+    OffReader(std::string_view bytes, std::string_view subject, MeshAttributes* attributes)
+        : bytes_(bytes.size()), lines_(bytes), subject_(subject), attributes_(attributes)
     {}
 
     Result<PolygonMesh> read()
@@ -19,6 +22,9 @@ public:
         const Status status = read_all();
         if (!status) {
             return status.error();
+        }
+        if (attributes_ != nullptr) {
+            finish_attributes();
         }
         return std::move(mesh_);
     }
@@ -77,6 +83,9 @@ private:
                 return fail(ErrorCode::unknownFormat, "a header of another kind than OFF in 3D");
             }
         }
+        has_colours_ = word.find('C') != std::string_view::npos;
+        has_normals_ = word.find('N') != std::string_view::npos;
+        has_texture_ = word.find("ST") != std::string_view::npos;
         line_ = without_comment(rest);
         if (line_ == "BINARY") {
             return fail(ErrorCode::unknownFormat, "binary content");
@@ -96,7 +105,83 @@ private:
             }
         }
         mesh_.positions.push_back(position);
+        if (attributes_ != nullptr && (has_colours_ || has_texture_)) {
+            read_vertex_attributes();
+        }
         return {};
+    }
+
+    /// What stands behind the position: normal, colour of three or four numbers, texture.
+    void read_vertex_attributes()
+    {
+        std::vector<double> numbers;
+        for (double number = 0; take_number(line_, number);) {
+            numbers.push_back(number);
+        }
+        const std::size_t begin = has_normals_ ? 3 : 0;
+        const std::size_t texture = has_texture_ ? 2 : 0;
+        const std::size_t rest = numbers.size() - std::min(numbers.size(), begin + texture);
+        const bool fits = numbers.size() >= begin + texture && (has_colours_ || rest == 0);
+        if (has_colours_) {
+            CornerValues& colours = attributes_->colours;
+            colours.size = colours.size > 0 ? colours.size : (rest < 4 ? 3 : 4);
+            vertex_colours_.push_back(fits && rest >= colours.size
+                                          ? colours.add({numbers.data() + begin, colours.size})
+                                          : kUnusable);
+        }
+        if (has_texture_) {
+            CornerValues& places = attributes_->texture_coordinates;
+            places.size = 2;
+            const std::size_t behind = begin + (has_colours_ ? std::min<std::size_t>(rest, 4) : 0);
+            vertex_texture_.push_back(fits ? places.add({numbers.data() + behind, 2}) : kUnusable);
+        }
+    }
+
+    /// What stands behind the corners: a colour, or the number of one.
+    void read_face_attributes()
+    {
+        std::array<double, 3> colour{};
+        std::size_t count = 0;
+        while (count < 3 && take_number(line_, colour[count])) {
+            ++count;
+        }
+        largest_face_colour_ = std::max({largest_face_colour_, colour[0], colour[1], colour[2]});
+        face_colours_.push_back(colour);
+        face_colour_sizes_.push_back(static_cast<unsigned char>(count));
+    }
+
+    /// Colours are whole numbers up to 255 in one file and fractions up to 1 in another; nothing
+    /// but the numbers says which.
+    static double full_colour(double largest) { return largest > 1 ? 255 : 1; }
+
+    void finish_attributes()
+    {
+        CornerValues& colours = attributes_->colours;
+        double largest = 0;
+        for (const double number : colours.numbers) {
+            largest = std::max(largest, number);
+        }
+        for (double& number : colours.numbers) {
+            number /= full_colour(largest);
+        }
+        if (has_colours_) {
+            colours.ids = corner_ids(vertex_colours_, mesh_.corners);
+        }
+        if (has_texture_) {
+            attributes_->texture_coordinates.ids = corner_ids(vertex_texture_, mesh_.corners);
+        }
+        FaceNaming groups;
+        const double full = full_colour(largest_face_colour_);
+        for (std::size_t f = 0; f < face_colours_.size(); ++f) {
+            const auto& [red, green, blue] = face_colours_[f];
+            groups.add(face_colour_sizes_[f] == 3
+                           ? colour_word({red / full, green / full, blue / full})
+                       : face_colour_sizes_[f] == 1 && red == std::floor(red) && std::abs(red) < 1e9
+                           ? "colour_" + std::to_string(static_cast<std::int64_t>(red))
+                           : "");
+        }
+        attributes_->groups = groups.take();
+        finish(*attributes_);
     }
 
     Status read_face(std::int64_t f, std::int64_t count)
@@ -128,6 +213,9 @@ private:
             return fail(ErrorCode::tooLarge, "more corners than 32-bit ids can number");
         }
         mesh_.face_offsets.push_back(static_cast<Index>(mesh_.corners.size()));
+        if (attributes_ != nullptr) {
+            read_face_attributes();
+        }
         return {};
     }
 
@@ -164,13 +252,23 @@ private:
     std::string subject_;
     std::string_view line_;
     PolygonMesh mesh_;
+    MeshAttributes* attributes_;
+    bool has_colours_ = false;
+    bool has_normals_ = false;
+    bool has_texture_ = false;
+    std::vector<Index> vertex_colours_;
+    std::vector<Index> vertex_texture_;
+    std::vector<std::array<double, 3>> face_colours_;
+    std::vector<unsigned char> face_colour_sizes_;
+    double largest_face_colour_ = 0;
 };
 
 }  // namespace
 
-Result<PolygonMesh> read_off(std::string_view bytes, std::string_view subject)
+Result<PolygonMesh> read_off(std::string_view bytes, std::string_view subject,
+                             MeshAttributes* attributes)
 {
-    return OffReader(bytes, subject).read();
+    return OffReader(bytes, subject, attributes).read();
 }
 
 }  // namespace layout_embedding

@@ -1,9 +1,12 @@
 #include "mesh/ply_reader.hh"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/bytes.hh"
 #include "base/line_scanner.hh"
@@ -33,11 +36,70 @@ std::size_t size_of(Scalar type)
     return kSizes[static_cast<std::size_t>(type)];
 }
 
-/// What a property is for.
-enum class Role { skipped, x, y, z, corners };
+/// What a property is for. Those up to v are numbers of a vertex; colours are numbers of a face,
+/// too.
+enum class Role {
+    x,
+    y,
+    z,
+    red,
+    green,
+    blue,
+    opacity,
+    u,
+    v,
+    skipped,
+    corners,
+    texture_list,
+    texture_number,
+    label,
+};
+
+constexpr std::size_t kNumberRoles = static_cast<std::size_t>(Role::v) + 1;
+
+constexpr std::size_t place_of(Role role)
+{
+    return static_cast<std::size_t>(role);
+}
+
+/// Which attribute a number of a vertex or a face is, by the names that programs use.
+Role attribute_role(std::string_view name)
+{
+    constexpr std::array<std::pair<std::string_view, Role>, 18> kRoles{{
+        {"red", Role::red},
+        {"diffuse_red", Role::red},
+        {"green", Role::green},
+        {"diffuse_green", Role::green},
+        {"blue", Role::blue},
+        {"diffuse_blue", Role::blue},
+        {"alpha", Role::opacity},
+        {"diffuse_alpha", Role::opacity},
+        {"u", Role::u},
+        {"s", Role::u},
+        {"texture_u", Role::u},
+        {"texture_s", Role::u},
+        {"tx", Role::u},
+        {"v", Role::v},
+        {"t", Role::v},
+        {"texture_v", Role::v},
+        {"texture_t", Role::v},
+        {"ty", Role::v},
+    }};
+    const auto* const found = std::find_if(kRoles.begin(), kRoles.end(),
+                                           [&](const auto& role) { return role.first == name; });
+    return found == kRoles.end() ? Role::skipped : found->second;
+}
+
+/// What stands for the full colour in a type.
+double full_colour(Scalar type)
+{
+    return type >= Scalar::float32 ? 1 : type == Scalar::uint16 ? 65535 : 255;
+}
 
 struct Property {
     Role role = Role::skipped;
+    /// Of labels.
+    std::string name;
     Scalar type{};
     std::optional<Scalar> count_type;  // of a list
 };
@@ -46,11 +108,21 @@ struct Element {
     std::string name;
     std::int64_t count = 0;
     std::vector<Property> properties;
+
+    bool has(Role role) const
+    {
+        return std::any_of(properties.begin(), properties.end(),
+                           [&](const Property& p) { return p.role == role; });
+    }
+    bool has_colour() const { return has(Role::red) && has(Role::green) && has(Role::blue); }
+    bool has_place() const { return has(Role::u) && has(Role::v); }
 };
 
 class PlyReader {
 public:
-    PlyReader(std::string_view bytes, std::string_view subject) : rest_(bytes), subject_(subject) {}
+    PlyReader(std::string_view bytes, std::string_view subject, MeshAttributes* attributes)
+        : rest_(bytes), subject_(subject), attributes_(attributes)
+    {}
 
     Result<PolygonMesh> read()
     {
@@ -65,6 +137,9 @@ public:
             if (const Status status = read_element(element); !status) {
                 return status.error();
             }
+        }
+        if (attributes_ != nullptr) {
+            finish_attributes();
         }
         return std::move(mesh_);
     }
@@ -137,7 +212,11 @@ private:
                 if (const Status status = read_property(line); !status) {
                     return status;
                 }
-            } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+            } else if (keyword == "comment") {
+                if (take_token(line) == "TextureFile") {
+                    texture_files_.push_back(as_word(without_comment(line)));
+                }
+            } else if (!keyword.empty() && keyword != "obj_info") {
                 return header_error(ErrorCode::syntaxError, "an unknown keyword");
             }
         }
@@ -169,10 +248,14 @@ private:
             property.role = name == "x"   ? Role::x
                             : name == "y" ? Role::y
                             : name == "z" ? Role::z
-                                          : Role::skipped;
-        } else if (element.name == "face" && property.count_type &&
-                   (name == "vertex_indices" || name == "vertex_index")) {
-            property.role = Role::corners;
+                                          : wanted(attribute_role(name));
+        } else if (element.name == "face" && property.count_type) {
+            property.role = name == "vertex_indices" || name == "vertex_index" ? Role::corners
+                            : name == "texcoord" ? wanted(Role::texture_list)
+                                                 : Role::skipped;
+        } else if (element.name == "face") {
+            property.role = wanted(face_role(name, *scalar));
+            property.name = as_word(name);
         } else if (element.name == "tristrips") {
             return header_error(ErrorCode::unknownFormat, "triangle strips instead of faces");
         }
@@ -180,18 +263,30 @@ private:
         return {};
     }
 
+    Role wanted(Role role) const { return attributes_ == nullptr ? Role::skipped : role; }
+
+    /// Whole numbers of faces mark regions, but for what is known to be something else.
+    static Role face_role(std::string_view name, Scalar type)
+    {
+        const Role role = attribute_role(name);
+        if (role == Role::red || role == Role::green || role == Role::blue) {
+            return role;
+        }
+        if (name == "texnumber") {
+            return Role::texture_number;
+        }
+        return role != Role::skipped || name == "flags" || type >= Scalar::float32 ? Role::skipped
+                                                                                   : Role::label;
+    }
+
     Status read_element(const Element& element)
     {
-        const auto has = [&](Role role) {
-            return std::any_of(element.properties.begin(), element.properties.end(),
-                               [&](const Property& p) { return p.role == role; });
-        };
         const bool is_vertex = element.name == "vertex";
         const bool is_face = element.name == "face";
-        if (is_vertex && !(has(Role::x) && has(Role::y) && has(Role::z))) {
+        if (is_vertex && !(element.has(Role::x) && element.has(Role::y) && element.has(Role::z))) {
             return make_error(ErrorCode::syntaxError, subject_ + " has vertices without x, y, z");
         }
-        if (is_face && !has(Role::corners)) {
+        if (is_face && !element.has(Role::corners)) {
             return make_error(ErrorCode::syntaxError,
                               subject_ + " has faces without a list vertex_indices");
         }
@@ -210,6 +305,11 @@ private:
             if (const Status status = read_one(element, i); !status) {
                 return status;
             }
+            if (attributes_ != nullptr && is_vertex) {
+                add_vertex_attributes(element);
+            } else if (attributes_ != nullptr && is_face) {
+                add_face_attributes(element);
+            }
         }
         return {};
     }
@@ -225,7 +325,9 @@ private:
 
     Status read_one(const Element& element, std::int64_t id)
     {
-        Vec3 position(0, 0, 0);
+        numbers_.fill(0);
+        labels_.clear();
+        texture_list_.clear();
         bool has_corners = false;
         for (const Property& property : element.properties) {
             std::int64_t count = 1;
@@ -251,13 +353,34 @@ private:
                                          "something that is no number, or the end of the file,");
                 }
                 switch (property.role) {
-                    case Role::skipped:
-                        break;
                     case Role::x:
                     case Role::y:
                     case Role::z:
-                        position[static_cast<int>(property.role) - static_cast<int>(Role::x)] =
-                            number;
+                    case Role::u:
+                    case Role::v:
+                        numbers_[place_of(property.role)] = number;
+                        break;
+                    case Role::red:
+                    case Role::green:
+                    case Role::blue:
+                    case Role::opacity:
+                        numbers_[place_of(property.role)] = number / full_colour(property.type);
+                        break;
+                    case Role::skipped:
+                        break;
+                    case Role::texture_list:
+                        if (texture_list_.size() < 2 * std::size_t{kMaxFaceCorners}) {
+                            texture_list_.push_back(number);
+                        }
+                        break;
+                    case Role::texture_number:
+                        texture_number_ = number;
+                        break;
+                    case Role::label:
+                        if (std::abs(number) <= kNone && number == std::floor(number)) {
+                            labels_ += (labels_.empty() ? "" : " ") + property.name + "_" +
+                                       std::to_string(static_cast<std::int64_t>(number));
+                        }
                         break;
                     case Role::corners:
                         if (has_corners) {
@@ -276,7 +399,7 @@ private:
             has_corners = has_corners || property.role == Role::corners;
         }
         if (element.name == "vertex") {
-            mesh_.positions.push_back(position);
+            mesh_.positions.emplace_back(numbers_[0], numbers_[1], numbers_[2]);
         } else if (element.name == "face") {
             if (mesh_.corners.size() >= kNone - kMaxFaceCorners) {
                 return element_error(ErrorCode::tooLarge, element, id,
@@ -285,6 +408,71 @@ private:
             mesh_.face_offsets.push_back(static_cast<Index>(mesh_.corners.size()));
         }
         return {};
+    }
+
+    void add_vertex_attributes(const Element& element)
+    {
+        if (element.has_colour()) {
+            CornerValues& colours = attributes_->colours;
+            colours.size = element.has(Role::opacity) ? 4 : 3;
+            colours.add({&numbers_[place_of(Role::red)], colours.size});
+        }
+        if (element.has_place() && !has_texture_lists()) {
+            attributes_->texture_coordinates.size = 2;
+            attributes_->texture_coordinates.add({&numbers_[place_of(Role::u)], 2});
+        }
+    }
+
+    bool has_texture_lists() const
+    {
+        return std::any_of(elements_.begin(), elements_.end(),
+                           [](const Element& e) { return e.has(Role::texture_list); });
+    }
+
+    void add_face_attributes(const Element& element)
+    {
+        if (element.has(Role::texture_list)) {
+            CornerValues& places = attributes_->texture_coordinates;
+            places.size = 2;
+            const std::size_t corners =
+                mesh_.corners.size() - mesh_.face_offsets[mesh_.face_offsets.size() - 2];
+            for (std::size_t i = 0; i < corners; ++i) {
+                places.ids.push_back(texture_list_.empty() ? kNone
+                                     : texture_list_.size() < 2 * corners
+                                         ? kUnusable
+                                         : places.add({&texture_list_[2 * i], 2}));
+            }
+        }
+        if (element.has_colour()) {
+            labels_ += (labels_.empty() ? "" : " ") +
+                       colour_word({numbers_[place_of(Role::red)], numbers_[place_of(Role::green)],
+                                    numbers_[place_of(Role::blue)]});
+        }
+        groups_.add(labels_);
+        const bool numbered = element.has(Role::texture_number);
+        const double texture = numbered ? texture_number_ : 0;
+        if (texture >= 0 && texture < static_cast<double>(texture_files_.size())) {
+            materials_.add(texture_files_[static_cast<std::size_t>(texture)]);
+        } else {
+            materials_.add(numbered && texture >= 0 && texture <= kNone
+                               ? "texture_" + std::to_string(static_cast<std::int64_t>(texture))
+                               : "");
+        }
+    }
+
+    void finish_attributes()
+    {
+        // Values of vertices have the ids of the vertices.
+        if (attributes_->colours.size > 0) {
+            attributes_->colours.ids = mesh_.corners;
+        }
+        CornerValues& places = attributes_->texture_coordinates;
+        if (places.size > 0 && !has_texture_lists()) {
+            places.ids = mesh_.corners;
+        }
+        attributes_->groups = groups_.take();
+        attributes_->materials = materials_.take();
+        finish(*attributes_);
     }
 
     bool take_scalar(Scalar type, double& number)
@@ -337,13 +525,23 @@ private:
     std::vector<Element> elements_;
     std::int64_t vertex_count_ = 0;
     PolygonMesh mesh_;
+    MeshAttributes* attributes_;
+    std::vector<std::string> texture_files_;
+    FaceNaming groups_;
+    FaceNaming materials_;
+    // Of the vertex or face that was read last:
+    std::array<double, kNumberRoles> numbers_{};
+    std::vector<double> texture_list_;
+    double texture_number_ = -1;
+    std::string labels_;
 };
 
 }  // namespace
 
-Result<PolygonMesh> read_ply(std::string_view bytes, std::string_view subject)
+Result<PolygonMesh> read_ply(std::string_view bytes, std::string_view subject,
+                             MeshAttributes* attributes)
 {
-    return PlyReader(bytes, subject).read();
+    return PlyReader(bytes, subject, attributes).read();
 }
 
 }  // namespace layout_embedding

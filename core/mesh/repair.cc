@@ -20,7 +20,10 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 class Repair {
 public:
     Repair(const PolygonMesh& mesh, SurfaceKind kind)
-        : mesh_(mesh), target_(kind == SurfaceKind::target), vertex_map_(mesh.vertex_count())
+        : mesh_(mesh),
+          target_(kind == SurfaceKind::target),
+          vertex_map_(mesh.vertex_count()),
+          face_origins_(mesh.face_count())
     {
         std::iota(vertex_map_.begin(), vertex_map_.end(), 0);
     }
@@ -43,7 +46,8 @@ public:
                          "vertices that belong") +
                  " to no face.");
         }
-        return {std::move(mesh_), std::move(vertex_map_), std::move(notes_)};
+        return {std::move(mesh_), std::move(vertex_map_), std::move(face_origins_),
+                std::move(notes_)};
     }
 
 private:
@@ -60,6 +64,7 @@ private:
         }
         const std::size_t dropped = mesh_.face_count() - result.face_count();
         if (dropped > 0) {
+            face_origins_.keep_if(keep);
             result.positions = std::move(mesh_.positions);
             mesh_ = std::move(result);
         }
@@ -178,7 +183,7 @@ private:
         }
         std::vector<Index> representatives(mesh_.vertex_count());
         std::iota(representatives.begin(), representatives.end(), 0);
-        const Index mended = mend_triangles_without_area(mesh_, representatives);
+        const Index mended = mend_triangles_without_area(mesh_, representatives, face_origins_);
         for (Index v = 0; v < representatives.size(); ++v) {
             // Representatives have smaller ids, so theirs are final already.
             representatives[v] = representatives[representatives[v]];
@@ -222,6 +227,7 @@ private:
     PolygonMesh mesh_;
     bool target_;
     std::vector<Index> vertex_map_;
+    FaceOrigins face_origins_;
     std::vector<std::string> notes_;
 };
 
@@ -236,7 +242,8 @@ RepairResult repair_surface(const PolygonMesh& mesh, SurfaceKind kind)
         case ErrorCode::noFaces:
         case ErrorCode::tooLarge:
         case ErrorCode::indexOutOfRange: {
-            RepairResult result{mesh, std::vector<Index>(mesh.vertex_count()), {}};
+            RepairResult result{
+                mesh, std::vector<Index>(mesh.vertex_count()), FaceOrigins(mesh.face_count()), {}};
             std::iota(result.vertex_map.begin(), result.vertex_map.end(), 0);
             return result;
         }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/types.hh"
+#include "mesh/face_origins.hh"
 #include "mesh/polygon_mesh.hh"
 #include "mesh/validation.hh"
 
@@ -13,6 +14,8 @@ struct RepairResult {
     PolygonMesh mesh;
     /// Per vertex of the input its vertex in `mesh`, kNone where it was dropped.
     std::vector<Index> vertex_map;
+    /// What became of the input's faces.
+    FaceOrigins face_origins;
     /// What was done, one sentence each; empty if nothing was.
     std::vector<std::string> notes;
 };

@@ -5,6 +5,7 @@
 
 #include "fuzz.hh"
 #include "layout/layout.hh"
+#include "mesh/mesh_attributes.hh"
 #include "mesh/repair.hh"
 #include "mesh/triangle_mesh.hh"
 #include "mesh/validation.hh"
@@ -62,6 +63,44 @@ inline void check_mesh_properties(const PolygonMesh& mesh)
             }
         }
     }
+}
+
+inline void check_values(const PolygonMesh& mesh, const CornerValues& values)
+{
+    FUZZ_CHECK(values.empty() || values.ids.size() == mesh.corners.size());
+    for (const Index id : values.ids) {
+        FUZZ_CHECK(id == kNone || id < values.count());
+    }
+    for (const double number : values.numbers) {
+        FUZZ_CHECK(std::isfinite(number));
+    }
+}
+
+inline void check_names(const PolygonMesh& mesh, const FaceNames& names)
+{
+    FUZZ_CHECK(names.empty() || names.ids.size() == mesh.face_count());
+    for (const Index id : names.ids) {
+        FUZZ_CHECK(id == kNone || id < names.names.size());
+    }
+}
+
+inline void check_attributes(const PolygonMesh& mesh, const MeshAttributes& attributes)
+{
+    check_values(mesh, attributes.texture_coordinates);
+    check_values(mesh, attributes.colours);
+    check_names(mesh, attributes.groups);
+    check_names(mesh, attributes.materials);
+}
+
+/// What must hold of attributes whatever the file: they fit the mesh that was read with them, which
+/// is the same without them, and what a repair makes of it.
+inline void check_attribute_properties(const PolygonMesh& mesh, const MeshAttributes& attributes,
+                                       const Result<PolygonMesh>& without)
+{
+    FUZZ_CHECK(without.ok() && identical(mesh, *without));
+    check_attributes(mesh, attributes);
+    const RepairResult repaired = repair_surface(mesh, SurfaceKind::target);
+    check_attributes(repaired.mesh, through_repair(attributes, mesh, repaired.face_origins));
 }
 
 }  // namespace layout_embedding

@@ -3,6 +3,9 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { facePatches, pathPoints, Session, type RefinedMapDocument } from "layout-embedding";
+import { Mesh as ThreeMesh, Vector3, type BufferAttribute } from "three";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { describe, expect, test } from "vitest";
 import { inFolder, run } from "./command.js";
 import { arrays, displacedLandmarks, file, obj, octahedron, sphere } from "./meshes.js";
@@ -116,6 +119,129 @@ describe("attributes", () => {
                 expect(material).toBe(materialOf(origin));
             });
         }));
+});
+
+/**
+ * The target as text PLY: (x, y) as texture coordinates of corners, by one higher on every other
+ * face; and the place, brought to [0, 1], as colour.
+ */
+function paintedPly(): Uint8Array {
+    const { positions, faces } = target;
+    const count = positions.length / 3;
+    const names = ["x", "y", "z", "red", "green", "blue"];
+    const lines = ["ply", "format ascii 1.0", `element vertex ${String(count)}`];
+    lines.push(...names.map((name) => `property double ${name}`));
+    lines.push(
+        `element face ${String(faces.length)}`,
+        "property list uchar int vertex_indices",
+        "property list uchar double texcoord",
+        "property int region",
+        "end_header",
+    );
+    for (let i = 0; i < positions.length; i += 3) {
+        const place = positions.slice(i, i + 3);
+        lines.push([...place, ...place.map((x) => (x + 1) / 2)].join(" "));
+    }
+    faces.forEach((face, f) => {
+        const texture = face.flatMap((vertex) => [
+            (positions[3 * vertex] ?? 0) + (f % 2),
+            positions[3 * vertex + 1] ?? 0,
+        ]);
+        lines.push([3, ...face, 6, ...texture, f % 2].join(" "));
+    });
+    return new TextEncoder().encode(`${lines.join("\n")}\n`);
+}
+
+describe("attributes of PLY", () => {
+    test("are_seen_by_other_programs_in_every_export_and_only_on_demand", async () => {
+        const session = await Session.create();
+        await session.loadLayout(arrays(octahedron));
+        const input = { bytes: paintedPly(), name: "target.ply" };
+        const plain = await session.loadTarget(input);
+        expect(plain.textureCoordinates).toBeNull();
+        await session.setLandmarks(Uint32Array.from(displacedLandmarks));
+        await session.solve();
+        const without = await session.exportAs(["obj", "ply", "glb", "vtp", "lem"]);
+        await session.loadTarget(input, { textureCoordinates: true });
+        await session.setLandmarks(Uint32Array.from(displacedLandmarks));
+        await session.solve();
+        expect(await session.exportAs(["obj", "ply", "glb", "vtp", "lem"])).toEqual(without);
+
+        const loaded = await session.loadTarget(input, {
+            attributes: true,
+            textureCoordinates: true,
+            repair: true,
+        });
+        expect(loaded.notes).toEqual([]);
+        expect(loaded.textureCoordinates).toHaveLength(6 * target.faces.length);
+        await session.setLandmarks(Uint32Array.from(displacedLandmarks));
+        const { refined } = await session.solve();
+        const files = await session.exportAs(["obj", "ply", "glb", "vtp", "lem"]);
+        const { "refined.obj": exported } = await session.exportFiles();
+        await session.dispose();
+        if (refined === null) {
+            throw new Error("no embedding");
+        }
+        // The reference implementation gets nothing it does not know.
+        expect(files["refined_target.obj"]).toEqual(without["refined_target.obj"]);
+        expect(files["refined.obj"]).toEqual(exported);
+
+        const { texture, faces } = read(new TextDecoder().decode(exported));
+        faces.forEach(({ corners, groups }, t) => {
+            const origin = refined.triangleFaces[t] ?? NaN;
+            expect(groups[1]).toBe(`region_${String(origin % 2)}`);
+            for (const [vertex, place] of corners) {
+                const [x, y] = refined.positions.subarray(3 * vertex, 3 * vertex + 2);
+                expect(texture[place]?.[0]).toBeCloseTo(x! + (origin % 2), 12);
+                expect(texture[place]?.[1]).toBeCloseTo(y!, 12);
+            }
+        });
+
+        const geometry = new PLYLoader().parse(files["refined.ply"]!.slice().buffer);
+        expect(geometry.getAttribute("color").count).toBe(geometry.getAttribute("position").count);
+
+        const { scene } = await new GLTFLoader().parseAsync(
+            files["refined.glb"]!.slice().buffer,
+            "",
+        );
+        scene.updateMatrixWorld(true);
+        let corners = 0;
+        scene.traverse((object) => {
+            if (!(object instanceof ThreeMesh) || !object.name.startsWith("patch_")) {
+                return;
+            }
+            const mesh = object as ThreeMesh;
+            const [place, uv, colour] = ["position", "uv", "color"].map((name) =>
+                mesh.geometry.getAttribute(name),
+            ) as [BufferAttribute, BufferAttribute, BufferAttribute];
+            for (const vertex of mesh.geometry.getIndex()?.array ?? []) {
+                const at = new Vector3().fromBufferAttribute(place, vertex);
+                at.applyMatrix4(mesh.matrixWorld);
+                expect(colour.getX(vertex)).toBeCloseTo((at.x + 1) / 2, 5);
+                expect(colour.getZ(vertex)).toBeCloseTo((at.z + 1) / 2, 5);
+                expect(1 - uv.getY(vertex)).toBeCloseTo(at.y, 5);
+                const chart = uv.getX(vertex) - at.x;
+                expect(chart).toBeCloseTo(Math.round(chart), 5);
+                ++corners;
+            }
+        });
+        expect(corners).toBe(refined.corners.length);
+    });
+
+    test("that_make_no_sense_are_told_and_left_out", async () => {
+        const session = await Session.create();
+        const text = new TextDecoder().decode(paintedPly()).replace(/( 6 )(\S+)/, "$1nan");
+        const input = { bytes: new TextEncoder().encode(text), name: "target.ply" };
+        const { notes, textureCoordinates } = await session.loadTarget(input, {
+            attributes: true,
+            textureCoordinates: true,
+        });
+        expect(notes).toHaveLength(1);
+        expect(notes[0]).toContain("the target target.ply: Left out");
+        expect(notes[0]).toContain("of 1 corner");
+        expect(textureCoordinates).toBeNull();
+        await session.dispose();
+    });
 });
 
 describe("on the target as it is", () => {

@@ -22,6 +22,7 @@
 #include "embedding/checker.hh"
 #include "embedding/refined_mesh.hh"
 #include "layout/layout.hh"
+#include "mesh/mesh_attributes.hh"
 #include "mesh/polygon_mesh.hh"
 #include "mesh/triangle_mesh.hh"
 #include "surface/polylines.hh"
@@ -53,6 +54,8 @@ struct MeshObject {
     std::vector<std::string> notes;
     /// Per vertex of the input: its id here, kNone where removed; empty without a repair.
     std::vector<Index> vertex_map;
+    /// Null where they were not asked for.
+    std::shared_ptr<const MeshAttributes> attributes;
 };
 
 struct LayoutObject {
@@ -61,6 +64,8 @@ struct LayoutObject {
 
 struct TargetObject {
     std::shared_ptr<const TriangleMesh> target;
+    /// To be carried over to refined meshes; null for none.
+    std::shared_ptr<const MeshAttributes> attributes;
 };
 
 struct LandmarksObject {
@@ -72,6 +77,8 @@ struct LandmarksObject {
 
 struct JobObject {
     EmbedJob job;
+    /// Of the target; null for none.
+    std::shared_ptr<const MeshAttributes> attributes;
 };
 
 /// An embedding that is kept whatever becomes of its job.

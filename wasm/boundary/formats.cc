@@ -1,5 +1,6 @@
 // Embeddings in the formats of other programs, and the reference implementation's input files.
 #include "boundary/boundary.hh"
+#include "embedding/carried_attributes.hh"
 #include "embedding/check_input.hh"
 #include "embedding/refined_obj.hh"
 #include "formats/reference_files.hh"
@@ -16,21 +17,23 @@ namespace {
 /// What a refined mesh can be written as; in the order of src/formats.ts.
 enum class ExportFormat { obj, ply, vtp, glb, svg };
 
-/// Views `refined` in a format. `view` has 7 numbers: direction, up, width.
-std::uint32_t view_export(const RefinedMesh& refined, ExportFormat format, const double* view)
+/// Views `refined` in a format, with attributes of its own. `view` has 7 numbers: direction, up,
+/// width.
+std::uint32_t view_export(const RefinedMesh& refined, const MeshAttributes& attributes,
+                          ExportFormat format, const double* view)
 {
     switch (format) {
         case ExportFormat::obj:
-            set_owned_view(write_refined_obj(refined));
+            set_owned_view(write_refined_obj(refined, attributes));
             return 1;
         case ExportFormat::ply:
-            set_owned_view(write_refined_ply(refined));
+            set_owned_view(write_refined_ply(refined, attributes));
             return 1;
         case ExportFormat::vtp:
-            set_owned_view(write_refined_vtp(refined));
+            set_owned_view(write_refined_vtp(refined, attributes));
             return 1;
         case ExportFormat::glb:
-            set_owned_view(write_refined_glb(refined));
+            set_owned_view(write_refined_glb(refined, attributes));
             return 1;
         case ExportFormat::svg:
             break;
@@ -56,13 +59,22 @@ const RefinedMesh& refined_of(std::uint32_t job)
 
 }  // namespace
 
-/// Views a job's embedding in an ExportFormat, seen from `view` (direction, up, width) where that
-/// matters.
+/// Views a job's embedding in an ExportFormat, with the attributes of its target, seen from `view`
+/// (direction, up, width) where that matters.
 BOUNDARY_EXPORT(boundary_job_write)
 std::uint32_t boundary_job_write(std::uint32_t job, std::uint32_t format, const double* view)
 {
-    return guarded(
-        0U, [&] { return view_export(refined_of(job), static_cast<ExportFormat>(format), view); });
+    return guarded(0U, [&] {
+        const RefinedMesh& refined = refined_of(job);
+        const JobObject& object = handles<JobObject>().get(job);
+        const auto kind = static_cast<ExportFormat>(format);
+        if (object.attributes == nullptr || kind == ExportFormat::svg) {
+            return view_export(refined, {}, kind, view);
+        }
+        return view_export(
+            refined, carried_attributes(*object.attributes, *object.job.problem().target, refined),
+            kind, view);
+    });
 }
 
 /// The same of a claimed embedding.
@@ -70,7 +82,7 @@ BOUNDARY_EXPORT(boundary_check_write)
 std::uint32_t boundary_check_write(std::uint32_t check, std::uint32_t format, const double* view)
 {
     return guarded(0U, [&] {
-        return view_export(handles<CheckObject>().get(check).refined,
+        return view_export(handles<CheckObject>().get(check).refined, {},
                            static_cast<ExportFormat>(format), view);
     });
 }

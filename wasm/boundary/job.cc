@@ -121,8 +121,9 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
             options.constraints.push_back(
                 {constrained_edges[i], are_kept[i] != 0, std::move(paths[i])});
         }
-        return handles<JobObject>().add(std::make_unique<JobObject>(
-            JobObject{EmbedJob(std::move(*problem), std::move(options))}));
+        return handles<JobObject>().add(
+            std::make_unique<JobObject>(JobObject{EmbedJob(std::move(*problem), std::move(options)),
+                                                  handles<TargetObject>().get(target).attributes}));
     });
 }
 
@@ -346,7 +347,7 @@ std::uint32_t boundary_job_refined_triangle_patches(std::uint32_t job)
     return with_refined(job, [](const RefinedMesh& mesh) { set_view(mesh.triangle_patches); });
 }
 
-/// Views the refined mesh as OBJ, with patches as groups and chains as lines.
+/// Views the refined mesh as OBJ, with patches as groups and chains as lines, and nothing else.
 BOUNDARY_EXPORT(boundary_job_write_obj) std::uint32_t boundary_job_write_obj(std::uint32_t job)
 {
     return with_refined(job,

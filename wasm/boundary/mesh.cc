@@ -1,4 +1,6 @@
 // Meshes, layouts, targets and landmarks: read, repaired, validated, looked at.
+#include <algorithm>
+
 #include "boundary/boundary.hh"
 #include "layout/embedding_problem.hh"
 #include "layout/landmark_reader.hh"
@@ -47,21 +49,33 @@ void view_counts(double vertices, double edges, double faces, double boundary_lo
 }  // namespace
 
 /// Reads a mesh from the bytes of a file. `format` is a MeshFormat; where that is detect, the
-/// ending of `name` counts. `subject` begins the messages. Returns a mesh.
+/// ending of `name` counts. `subject` begins the messages. With attributes, unless
+/// `with_attributes` is 0. Returns a mesh.
 BOUNDARY_EXPORT(boundary_mesh_read)
 std::uint32_t boundary_mesh_read(const char* bytes, std::size_t size, std::uint32_t format,
                                  const char* name, std::size_t name_size, const char* subject,
-                                 std::size_t subject_size)
+                                 std::size_t subject_size, std::uint32_t with_attributes)
 {
     return guarded(0U, [&] {
         auto kind = static_cast<MeshFormat>(format);
         if (kind == MeshFormat::detect) {
             kind = format_of_file_name({name, name_size});
         }
-        return add_or_fail<MeshObject>(
-            read_mesh({bytes, size}, kind, {subject, subject_size}), +[](PolygonMesh mesh) {
-                return MeshObject{std::move(mesh), {}, {}};
-            });
+        auto attributes = with_attributes != 0 ? std::make_shared<MeshAttributes>() : nullptr;
+        auto mesh = read_mesh({bytes, size}, kind, {subject, subject_size}, attributes.get());
+        if (!mesh) {
+            set_error(mesh.error());
+            return 0U;
+        }
+        std::vector<std::string> notes;
+        if (attributes != nullptr && attributes->unusable > 0) {
+            notes.push_back("Left out texture coordinates or colours of " +
+                            std::to_string(attributes->unusable) +
+                            (attributes->unusable == 1 ? " corner" : " corners") +
+                            " of faces, where they are no numbers or do not exist.");
+        }
+        return handles<MeshObject>().add(std::make_unique<MeshObject>(
+            MeshObject{std::move(*mesh), std::move(notes), {}, std::move(attributes)}));
     });
 }
 
@@ -87,14 +101,22 @@ BOUNDARY_EXPORT(boundary_mesh_repair)
 std::uint32_t boundary_mesh_repair(std::uint32_t mesh, std::uint32_t kind)
 {
     return guarded(0U, [&] {
-        RepairResult repaired =
-            repair_surface(mesh_object(mesh).mesh, static_cast<SurfaceKind>(kind));
-        return handles<MeshObject>().add(std::make_unique<MeshObject>(MeshObject{
-            std::move(repaired.mesh), std::move(repaired.notes), std::move(repaired.vertex_map)}));
+        const MeshObject& given = mesh_object(mesh);
+        RepairResult repaired = repair_surface(given.mesh, static_cast<SurfaceKind>(kind));
+        std::shared_ptr<const MeshAttributes> attributes;
+        if (given.attributes != nullptr) {
+            attributes = std::make_shared<const MeshAttributes>(
+                through_repair(*given.attributes, given.mesh, repaired.face_origins));
+        }
+        std::vector<std::string> notes = given.notes;
+        notes.insert(notes.end(), repaired.notes.begin(), repaired.notes.end());
+        return handles<MeshObject>().add(std::make_unique<MeshObject>(
+            MeshObject{std::move(repaired.mesh), std::move(notes), std::move(repaired.vertex_map),
+                       std::move(attributes)}));
     });
 }
 
-/// Views a note on what was mended; 0 beyond the last one.
+/// Views a note on what was left out or mended; 0 beyond the last one.
 BOUNDARY_EXPORT(boundary_mesh_note)
 std::uint32_t boundary_mesh_note(std::uint32_t mesh, std::size_t place)
 {
@@ -131,6 +153,26 @@ BOUNDARY_EXPORT(boundary_mesh_offsets) std::uint32_t boundary_mesh_offsets(std::
 {
     return guarded(0U, [&] {
         set_view(mesh_object(mesh).mesh.face_offsets);
+        return 1U;
+    });
+}
+
+/// Views the texture coordinates of a mesh: 2 doubles per corner, none where some corner has none.
+BOUNDARY_EXPORT(boundary_mesh_texture_coordinates)
+std::uint32_t boundary_mesh_texture_coordinates(std::uint32_t mesh)
+{
+    return guarded(0U, [&] {
+        std::vector<double> places;
+        if (const auto& attributes = mesh_object(mesh).attributes; attributes != nullptr) {
+            const CornerValues& values = attributes->texture_coordinates;
+            const bool complete =
+                std::find(values.ids.begin(), values.ids.end(), kNone) == values.ids.end();
+            for (std::size_t i = 0; complete && i < values.ids.size(); ++i) {
+                const auto value = values.value(values.ids[i]);
+                places.insert(places.end(), value.begin(), value.end());
+            }
+        }
+        set_owned_view(places);
         return 1U;
     });
 }
@@ -199,20 +241,23 @@ BOUNDARY_EXPORT(boundary_layout_edges) std::uint32_t boundary_layout_edges(std::
     });
 }
 
-/// Makes a target of a mesh, which it does not need any further.
+/// Makes a target of a mesh, which it does not need any further. The mesh's attributes go along to
+/// refined meshes, unless `with_attributes` is 0.
 BOUNDARY_EXPORT(boundary_target_create)
 std::uint32_t boundary_target_create(std::uint32_t mesh, const char* subject,
-                                     std::size_t subject_size)
+                                     std::size_t subject_size, std::uint32_t with_attributes)
 {
     return guarded(0U, [&] {
-        const PolygonMesh& polygons = mesh_object(mesh).mesh;
+        const MeshObject& given = mesh_object(mesh);
+        const PolygonMesh& polygons = given.mesh;
         const Status valid = check_surface(polygons, SurfaceKind::target, {subject, subject_size});
         if (!valid) {
             set_error(valid.error());
             return 0U;
         }
         return handles<TargetObject>().add(std::make_unique<TargetObject>(
-            TargetObject{std::make_shared<const TriangleMesh>(polygons)}));
+            TargetObject{std::make_shared<const TriangleMesh>(polygons),
+                         with_attributes != 0 ? given.attributes : nullptr}));
     });
 }
 
@@ -308,7 +353,7 @@ std::uint32_t boundary_template_create(std::uint32_t target, const Index* landma
                                            static_cast<double>(counts.after_flips),
                                            static_cast<double>(counts.in_any_shape)});
         return handles<MeshObject>().add(
-            std::make_unique<MeshObject>(MeshObject{std::move(made->mesh), {}, {}}));
+            std::make_unique<MeshObject>(MeshObject{std::move(made->mesh), {}, {}, {}}));
     });
 }
 

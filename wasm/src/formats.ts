@@ -42,6 +42,11 @@ export function exportJob(
     return files;
 }
 
+/** A job's embedding as refined.obj, with the attributes of its target. */
+export function refinedObj(core: Core, job: Handle): Uint8Array {
+    return write(core, "boundary_job_write", job, "obj", {});
+}
+
 /** A claimed embedding, which is not looked at further, in a format. */
 export function exportClaim(
     core: Core,
@@ -81,6 +86,12 @@ function write(
     return core.viewedBytes();
 }
 
+/** Without the target's attributes. */
+function plainObj(core: Core, job: Handle): Uint8Array {
+    core.call("boundary_job_write_obj", job);
+    return core.viewedBytes();
+}
+
 function referenceFiles(core: Core, job: Handle): Record<string, Uint8Array> {
     const named = (name: string, first: string, second: string) => {
         core.withCopies((copy) => {
@@ -103,7 +114,7 @@ function referenceFiles(core: Core, job: Handle): Record<string, Uint8Array> {
         "refined.lem": named("boundary_job_write_lem", "refined.inp", "refined_target.obj"),
         "refined_layout.obj": input("layout"),
         "refined_target_input.obj": input("target"),
-        "refined_target.obj": write(core, "boundary_job_write", job, "obj", {}),
+        "refined_target.obj": plainObj(core, job),
     };
 }
 

@@ -16,25 +16,27 @@ export interface LoadedMesh {
 // In the order of the core's MeshFormat (core/mesh/mesh_reader.hh).
 const formats = ["detect", "obj", "off", "ply", "stl", "glb"];
 
-/** Reads a mesh, and repairs it where asked to; validation comes later. */
+/**
+ * Reads a mesh, with what else its file says of vertices and faces where that is asked for, and
+ * repairs it where asked to; validation comes later.
+ */
 export function readMesh(
     core: Core,
     role: "layout" | "target",
     input: MeshInput,
-    repair: boolean,
+    { repair = false, attributes = false }: { repair?: boolean; attributes?: boolean },
 ): LoadedMesh {
     const subject = input.name === undefined ? `the ${role}` : `the ${role} ${input.name}`;
     const read =
-        "bytes" in input ? readFile(core, subject, input) : readArrays(core, subject, input);
+        "bytes" in input
+            ? readFile(core, subject, input, attributes)
+            : readArrays(core, subject, input);
     if (!repair) {
-        return { handle: read, subject, vertexMap: null, notes: [] };
+        return { handle: read, subject, vertexMap: null, notes: notesOn(core, read, subject) };
     }
     try {
         const handle = core.call("boundary_mesh_repair", read, role === "target" ? 0 : 1);
-        const notes: Notes = [];
-        for (let i = 0; core.test("boundary_mesh_note", handle, i); ++i) {
-            notes.push(`${subject}: ${core.viewedText()}`);
-        }
+        const notes = notesOn(core, handle, subject);
         core.call("boundary_mesh_vertex_map", handle);
         // kNone, all bits set, becomes -1.
         return { handle, subject, vertexMap: new Int32Array(core.viewedIds().buffer), notes };
@@ -43,8 +45,16 @@ export function readMesh(
     }
 }
 
+function notesOn(core: Core, mesh: Handle, subject: string): Notes {
+    const notes: Notes = [];
+    for (let i = 0; core.test("boundary_mesh_note", mesh, i); ++i) {
+        notes.push(`${subject}: ${core.viewedText()}`);
+    }
+    return notes;
+}
+
 /** A mesh from the bytes of a file, exactly as it stands there. */
-export function readFile(core: Core, subject: string, input: MeshFile): Handle {
+export function readFile(core: Core, subject: string, input: MeshFile, attributes = false): Handle {
     const bytes = byteArray(input.bytes, subject);
     const format = formats.indexOf(input.format ?? "detect");
     if (format < 0) {
@@ -65,6 +75,7 @@ export function readFile(core: Core, subject: string, input: MeshFile): Handle {
             name.length,
             copy(subjectText),
             subjectText.length,
+            attributes ? 1 : 0,
         );
     });
 }
@@ -120,6 +131,13 @@ function offsetArray(
 
 function isList(value: unknown): value is ArrayLike<number> {
     return typeof value === "object" && value !== null && "length" in value;
+}
+
+/** 6 numbers per triangle; null where some corner has none, or they were not read. */
+export function textureCoordinatesOf(core: Core, mesh: Handle): Float64Array<ArrayBuffer> | null {
+    core.call("boundary_mesh_texture_coordinates", mesh);
+    const coordinates = core.viewedDoubles();
+    return coordinates.length > 0 ? coordinates : null;
 }
 
 /** Copies of a mesh's arrays. */

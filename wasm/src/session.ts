@@ -12,12 +12,18 @@ import {
     type Exportable,
     type InputRecord,
 } from "./files.js";
-import { exportJob } from "./formats.js";
+import { exportJob, refinedObj } from "./formats.js";
 import { createJob, jobOptions, readResult, reshapeJob, runJob, type JobOptions } from "./job.js";
 import type { InitOptions } from "./loader.js";
-import { meshAttributes, withAttributes, type MeshAttributes } from "./attributes.js";
 import { imagesOf, keepEmbedding, makeMap, readMap } from "./maps.js";
-import { arraysOf, byteArray, idArray, readMesh, type LoadedMesh } from "./mesh.js";
+import {
+    arraysOf,
+    byteArray,
+    idArray,
+    readMesh,
+    textureCoordinatesOf,
+    type LoadedMesh,
+} from "./mesh.js";
 import { makeQuads } from "./quads.js";
 import { qualityReport } from "./quality.js";
 import { checkpoint } from "./slices.js";
@@ -60,8 +66,6 @@ interface Loaded {
     surface: Handle;
     record: InputRecord;
     vertexCount: number;
-    /** What refined.obj is to have of it. */
-    attributes: MeshAttributes | null;
 }
 
 /** What is told of layouts and targets alike. */
@@ -75,7 +79,6 @@ interface Solved {
     landmarks: Uint32Array;
     inputs: InputRecord[];
     notes: string[];
-    attributes: MeshAttributes | null;
 }
 
 export class Session implements EmbeddingSession {
@@ -113,18 +116,13 @@ export class Session implements EmbeddingSession {
 
     async loadTarget(input: MeshInput, options: TargetLoadOptions = {}): Promise<TargetInfo> {
         const [loaded, common] = await this.load("target", input, options);
-        // After a repair, faces are others.
-        const isAsItWas = "bytes" in input && loaded.mesh.vertexMap === null;
-        const wanted = options.attributes === true || options.textureCoordinates === true;
-        const attributes = wanted && isAsItWas ? meshAttributes(input) : null;
-        if (options.attributes === true) {
-            loaded.attributes = attributes;
-        }
         this.forget(this.target);
         this.target = loaded;
         this.landmarks = null;
         const isAsked = options.textureCoordinates === true;
-        const textureCoordinates = isAsked ? (attributes?.textureCoordinates ?? null) : null;
+        const textureCoordinates = isAsked
+            ? textureCoordinatesOf(this.core, loaded.mesh.handle)
+            : null;
         return { ...common, textureCoordinates };
     }
 
@@ -134,7 +132,7 @@ export class Session implements EmbeddingSession {
         options: LoadOptions = {},
     ): Promise<UncheckedMesh> {
         this.assertAlive();
-        const { handle } = readMesh(this.core, role, input, options.repair === true);
+        const { handle } = readMesh(this.core, role, input, options);
         try {
             return Promise.resolve(arraysOf(this.core, handle));
         } finally {
@@ -230,7 +228,6 @@ export class Session implements EmbeddingSession {
             landmarks: landmarks.landmarks,
             inputs: [layout.record, target.record, landmarks.record],
             notes: [...layout.mesh.notes, ...target.mesh.notes, ...landmarks.notes],
-            attributes: target.attributes,
         };
         try {
             await runJob(core, job, options, this.isAlive);
@@ -270,17 +267,8 @@ export class Session implements EmbeddingSession {
     }
 
     async exportFiles(): Promise<ExportedFiles> {
-        const { core, solved } = this;
         const exportable = this.exportable();
-        if (solved === null || !core.test("boundary_job_write_obj", solved.job)) {
-            throw javaScriptError("nothingToExport", "no embedding was found in this session");
-        }
-        const plain = core.viewedBytes();
-        const { refined } = exportable.result;
-        const obj =
-            solved.attributes === null || refined === null
-                ? plain
-                : withAttributes(plain, refined, solved.attributes);
+        const obj = refinedObj(this.core, this.embeddedJob());
         return Promise.resolve({ "refined.obj": obj, ...exportedFiles(exportable) });
     }
 
@@ -409,7 +397,7 @@ export class Session implements EmbeddingSession {
     private async load(
         role: "layout" | "target",
         input: MeshInput,
-        options: LoadOptions,
+        options: TargetLoadOptions,
     ): Promise<[Loaded, MeshInfo]> {
         this.assertAlive();
         const { core } = this;
@@ -420,7 +408,12 @@ export class Session implements EmbeddingSession {
         }
         const { signal } = options;
         await checkpoint(signal, this.isAlive);
-        const mesh = readMesh(core, role, input, options.repair === true);
+        const { repair, attributes, textureCoordinates } = options;
+        const isWanted = attributes === true || textureCoordinates === true;
+        const mesh = readMesh(core, role, input, {
+            ...(repair === undefined ? {} : { repair }),
+            attributes: isWanted,
+        });
         let surface: Handle | null = null;
         try {
             await checkpoint(signal, this.isAlive);
@@ -431,13 +424,14 @@ export class Session implements EmbeddingSession {
                     mesh.handle,
                     copy(subject),
                     subject.length,
+                    ...(role === "target" ? [attributes === true ? 1 : 0] : []),
                 );
             });
             await checkpoint(signal, this.isAlive);
             const common = this.describe(role, surface, mesh, input.name ?? role);
             await checkpoint(signal, this.isAlive);
             const { vertexCount } = common;
-            return [{ mesh, surface, record, vertexCount, attributes: null }, common];
+            return [{ mesh, surface, record, vertexCount }, common];
         } catch (reason) {
             core.destroy(surface);
             core.destroy(mesh.handle);

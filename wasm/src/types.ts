@@ -70,14 +70,14 @@ export interface LoadOptions extends Pick<CallOptions, "signal"> {
 /** How a target is read. */
 export interface TargetLoadOptions extends LoadOptions {
     /**
-     * Whether texture coordinates are looked for in the file (TargetInfo.textureCoordinates), which
-     * takes a while for a large one. Off by default.
+     * Whether texture coordinates are looked for in the file (TargetInfo.textureCoordinates). Off by
+     * default.
      */
     textureCoordinates?: boolean;
     /**
-     * Whether refined.obj is to have what an OBJ file of triangles says besides places: texture
-     * coordinates, vertex colours, groups (behind those of the patches) and materials. Takes a
-     * while for a large file. Not after a repair, which makes other faces. Off by default.
+     * Whether exports of embeddings are to have what an OBJ, OFF, PLY or GLB file says besides places,
+     * also where a repair changed the mesh: texture coordinates, vertex colours, groups (behind
+     * those of the patches) and names of materials. Off by default.
      */
     attributes?: boolean;
 }
@@ -142,8 +142,8 @@ export interface TargetInfo {
     /** 3 vertex ids per triangle, counter-clockwise. */
     corners: Uint32Array;
     /**
-     * 6 numbers per triangle, two for each corner, for mapFiles(); null where they were not asked
-     * for, after a repair, and where the file is no OBJ file with some at every corner.
+     * 6 numbers per triangle, two for each corner, v upwards, for mapFiles(); null where they were
+     * not asked for, and where the file does not have some at every corner.
      */
     textureCoordinates: Float64Array | null;
     /** Per vertex of the input: its id here, -1 where it was removed; null without a repair. */

@@ -57,8 +57,8 @@ Options of embed
   --keep LIST          these edges keep their routes, as homotopy classes
   --report             report on lengths, roundness and distortion of every path and patch:
                        report.json, and in the object of --json
-  --attributes         refined.obj also has the texture coordinates, vertex colours, groups and
-                       materials of an OBJ target (not with --repair where that changes it)
+  --attributes         refined.obj (and .ply, .glb, .vtp) also have the texture coordinates, vertex
+                       colours, groups and materials of the target's file
   --quiet              print nothing but errors
 
 Options of quads, beside those of embed
