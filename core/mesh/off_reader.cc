@@ -145,7 +145,10 @@ private:
         while (count < 3 && take_number(line_, colour[count])) {
             ++count;
         }
-        largest_face_colour_ = std::max({largest_face_colour_, colour[0], colour[1], colour[2]});
+        if (count == 3) {
+            largest_face_colour_ =
+                std::max({largest_face_colour_, colour[0], colour[1], colour[2]});
+        }
         face_colours_.push_back(colour);
         face_colour_sizes_.push_back(static_cast<unsigned char>(count));
     }

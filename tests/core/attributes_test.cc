@@ -531,6 +531,21 @@ TEST(Attributes, may_be_there_in_part)
     EXPECT_NE(again.find("f 2 3 4\n"), std::string::npos);
 }
 
+TEST(Attributes, of_off_have_colours_of_either_scale_in_any_number)
+{
+    const std::string body = "0 0 0 0 0 1 1 0.5 0\n1 0 0 0 0 1 0 0 1\n0 1 0 0 0 1 1 1 1\n";
+    const auto bright = read("CNOFF\n3 1 0\n" + body + "3 0 1 2 1 0.5 0 1\n").attributes;
+    EXPECT_EQ(bright.colours.size, 3);
+    EXPECT_EQ(bright.colours.value(0)[1], 0.5);
+    EXPECT_EQ(bright.groups.of_face(0), "colour_ff8000");
+    // The number of a colour is none of its parts.
+    const auto numbered =
+        read("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7\n3 0 2 1 0 1 0\n").attributes;
+    EXPECT_EQ(numbered.groups.of_face(0), "colour_7");
+    EXPECT_EQ(numbered.groups.of_face(1), "colour_00ff00");
+    EXPECT_TRUE(numbered.colours.empty());
+}
+
 TEST(Attributes, that_are_there_in_part_stay_so_on_the_refined_mesh)
 {
     const PolygonMesh mesh = target_mesh();

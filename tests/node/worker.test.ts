@@ -2,7 +2,7 @@
 import { embed } from "layout-embedding";
 import { createWorkerClient, LayoutError, type EmbeddingWorker } from "layout-embedding/worker";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { arrays, displacedLandmarks, octahedron, sphere } from "./meshes.js";
+import { arrays, creased, displacedLandmarks, octahedron, sphere } from "./meshes.js";
 
 const problem = {
     layout: arrays(octahedron),
@@ -63,6 +63,46 @@ test("can_solve_and_export_again_in_one_session", async () => {
     expect(await session.check({ refined: first.refined!, edges: first.edges })).toEqual([]);
     await session.dispose();
     await expect(session.solve()).rejects.toMatchObject({ code: "disposed" });
+});
+
+/** How much of a path lies on the edges of the octahedron, which are in the planes of the axes. */
+function lengthOnEdges(path: Float64Array): number {
+    let sum = 0;
+    for (let i = 3; i < path.length; i += 3) {
+        const [a, b] = [path.subarray(i - 3, i), path.subarray(i, i + 3)];
+        if (a.some((x, axis) => Math.abs(x) + Math.abs(b[axis]!) < 1e-9)) {
+            sum += Math.hypot(...a.map((x, axis) => b[axis]! - x));
+        }
+    }
+    return sum;
+}
+
+test("paths_that_follow_a_dragged_landmark_stay_on_the_sharp_edges_of_the_solve", async () => {
+    const session = await worker.createSession();
+    await session.loadLayout(problem.layout);
+    await session.loadTarget(arrays(creased(3)));
+    const options = { metric: { featureDiscount: 0.9 }, gap: 0, doubts: false };
+    await session.setLandmarks(displacedLandmarks);
+    await session.solve(options);
+    const place = 42;
+    const dragged = await session.dragLandmark(0, place);
+    if (!dragged) throw new Error("no embedding follows");
+    await session.setLandmarks([place, ...displacedLandmarks.slice(1)]);
+    const { cost, refined, edges } = await session.solve(options);
+    // Here it follows into the best embedding, so that the paths can be compared one by one.
+    expect(dragged.cost).toBeCloseTo(cost, 9);
+    const { points, offsets } = dragged.paths;
+    let sum = 0;
+    edges.forEach(({ chain }, i) => {
+        const solved = Array.from(chain).flatMap((vertex) =>
+            Array.from(refined!.positions.subarray(3 * vertex, 3 * vertex + 3)),
+        );
+        const onEdges = lengthOnEdges(points.subarray(3 * offsets[i]!, 3 * offsets[i + 1]!));
+        expect(onEdges).toBeCloseTo(lengthOnEdges(Float64Array.from(solved)), 6);
+        sum += onEdges;
+    });
+    expect(sum).toBeGreaterThan(5);
+    await session.dispose();
 });
 
 test("shows_candidate_paths_and_has_an_embedding_follow_a_dragged_landmark", async () => {
