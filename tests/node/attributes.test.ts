@@ -121,6 +121,49 @@ describe("attributes", () => {
         }));
 });
 
+describe("attributes of a damaged target", () => {
+    test("stay_with_their_faces_where_it_is_repaired", () =>
+        inFolder(async (cwd) => {
+            // A face twice, and a vertex in no face before all others, so that all ids change.
+            const lines = painted().trimEnd().split("\n");
+            const first = lines.findIndex((line) => line.startsWith("v "));
+            lines.splice(first, 0, "v 9 9 9 0 0 0");
+            const shifted = lines.map((line) =>
+                line.startsWith("f ")
+                    ? line.replace(/(\d+)\//g, (_, vertex) => `${String(Number(vertex) + 1)}/`)
+                    : line,
+            );
+            const again = shifted.findLast((line) => line.startsWith("f "));
+            writeFileSync(path.join(cwd, "layout.obj"), obj(octahedron));
+            writeFileSync(path.join(cwd, "target.obj"), [...shifted, again, ""].join("\n"));
+            const landmarks = displacedLandmarks.map((vertex) => vertex + 1);
+            writeFileSync(path.join(cwd, "landmarks.txt"), landmarks.join("\n"));
+            const args = ["layout.obj", "target.obj", "--landmarks", "landmarks.txt", "--repair"];
+            const embedded = await run(["embed", ...args, "--attributes", "--output", "out"], {
+                cwd,
+            });
+            expect(embedded.exitCode).toBe(0);
+            expect(embedded.stderr).toContain("Dropped 1 duplicate face");
+            const inputs = ["layout.obj", "target.obj", "--repair"];
+            expect((await run(["check", "out", ...inputs], { cwd })).exitCode).toBe(0);
+            const refined = read(readFileSync(path.join(cwd, "out", "refined.obj"), "utf8"));
+            const map = JSON.parse(
+                readFileSync(path.join(cwd, "out", "refined_map.json"), "utf8"),
+            ) as RefinedMapDocument;
+            refined.faces.forEach(({ corners, groups, material }, t) => {
+                const origin = map.triangleFaces[t] ?? NaN;
+                expect(groups.slice(1).join(" ")).toBe(groupOf(origin));
+                expect(material).toBe(materialOf(origin));
+                for (const [vertex, place] of corners) {
+                    const [x, y, , r, g] = refined.vertices[vertex]!;
+                    const [u, v] = refined.texture[place]!;
+                    expect(Math.hypot(u! - x! - origin, v! - y!)).toBeLessThan(1e-9);
+                    expect(Math.hypot(r! - x!, g! - y!)).toBeLessThan(1e-12);
+                }
+            });
+        }));
+});
+
 /**
  * The target as text PLY: (x, y) as texture coordinates of corners, by one higher on every other
  * face; and the place, brought to [0, 1], as colour.
@@ -175,13 +218,14 @@ describe("attributes of PLY", () => {
         expect(loaded.notes).toEqual([]);
         expect(loaded.textureCoordinates).toHaveLength(6 * target.faces.length);
         await session.setLandmarks(Uint32Array.from(displacedLandmarks));
-        const { refined } = await session.solve();
+        const { refined, edges } = await session.solve();
         const files = await session.exportAs(["obj", "ply", "glb", "vtp", "lem"]);
         const { "refined.obj": exported } = await session.exportFiles();
-        await session.dispose();
         if (refined === null) {
             throw new Error("no embedding");
         }
+        expect(await session.check({ refined, edges })).toEqual([]);
+        await session.dispose();
         // The reference implementation gets nothing it does not know.
         expect(files["refined_target.obj"]).toEqual(without["refined_target.obj"]);
         expect(files["refined.obj"]).toEqual(exported);
