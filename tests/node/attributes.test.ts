@@ -272,7 +272,7 @@ describe("attributes of PLY", () => {
         expect(corners).toBe(refined.corners.length);
     });
 
-    test("that_make_no_sense_are_told_and_left_out", async () => {
+    test("that_make_no_sense_or_are_not_there_are_told", async () => {
         const session = await Session.create();
         const text = new TextDecoder().decode(paintedPly()).replace(/( 6 )(\S+)/, "$1nan");
         const input = { bytes: new TextEncoder().encode(text), name: "target.ply" };
@@ -284,6 +284,11 @@ describe("attributes of PLY", () => {
         expect(notes[0]).toContain("the target target.ply: Left out");
         expect(notes[0]).toContain("of 1 corner");
         expect(textureCoordinates).toBeNull();
+        const bare = file(target, "bare.obj");
+        expect((await session.loadTarget(bare, { attributes: true })).notes).toEqual([
+            "the target bare.obj: Found no texture coordinates, colours, groups or materials.",
+        ]);
+        expect((await session.loadTarget(bare)).notes).toEqual([]);
         await session.dispose();
     });
 });

@@ -261,6 +261,16 @@ std::uint32_t boundary_target_create(std::uint32_t mesh, const char* subject,
     });
 }
 
+/// Whether a target has attributes that go along.
+BOUNDARY_EXPORT(boundary_target_has_attributes)
+std::uint32_t boundary_target_has_attributes(std::uint32_t target)
+{
+    return guarded(0U, [&] {
+        const auto& attributes = handles<TargetObject>().get(target).attributes;
+        return attributes != nullptr && !attributes->empty() ? 1U : 0U;
+    });
+}
+
 BOUNDARY_EXPORT(boundary_target_counts) std::uint32_t boundary_target_counts(std::uint32_t target)
 {
     return guarded(0U, [&] {

@@ -427,6 +427,11 @@ export class Session implements EmbeddingSession {
                     ...(role === "target" ? [attributes === true ? 1 : 0] : []),
                 );
             });
+            if (attributes === true && !core.test("boundary_target_has_attributes", surface)) {
+                mesh.notes.push(
+                    `${mesh.subject}: Found no texture coordinates, colours, groups or materials.`,
+                );
+            }
             await checkpoint(signal, this.isAlive);
             const common = this.describe(role, surface, mesh, input.name ?? role);
             await checkpoint(signal, this.isAlive);
