@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "patches/newton_step.hh"
@@ -42,46 +45,127 @@ public:
         if (stage_ == Stage::over) {
             return false;
         }
-        const Index rounds = (stage_ == Stage::untangle ? 2 : 1) * rounds_;
-        const bool more = round_ < rounds && round();
+        const bool more = round_ < rounds_of_stage() && round();
         ++round_;
         if (!more) {
             round_ = 0;
-            stage_ = stage_ == Stage::smooth     ? Stage::untangle
-                     : stage_ == Stage::untangle ? Stage::mend
-                                                 : next_turn();
+            end_stage();
         }
         return stage_ != Stage::over;
     }
 
     double progress() const
     {
-        const double share = rounds_ > 0 ? double(round_) / (2.0 * rounds_) : 0;
-        const double stage = stage_ == Stage::smooth     ? 0
-                             : stage_ == Stage::untangle ? 2 * turn_ + 1
-                                                         : 2 * turn_ + 2;
-        return stage_ == Stage::over ? 1 : std::min(1.0, (stage + share) / (2 * kMostTurns + 1));
+        const Index rounds = rounds_of_stage();
+        const double share = rounds > 0 ? std::min(1.0, double(round_) / rounds) : 0;
+        switch (stage_) {
+            case Stage::smooth:
+                return 0.1 * share;
+            case Stage::settle:
+                return 0.1 + 0.5 * share;
+            case Stage::untangle:
+            case Stage::mend:
+                return 0.6 +
+                       0.3 * (turn_ + (stage_ == Stage::mend ? 0.5 : 0) + share / 2) / kMostTurns;
+            case Stage::reopen:
+                return 0.9 + 0.1 * share;
+            case Stage::over:
+                break;
+        }
+        return 1;
     }
 
 private:
-    /// Means of neighbours do not untangle. What does, by turns, for as long as it makes flipped
-    /// quads fewer: a smooth energy where many are folded over each other, and the worst quad
-    /// around each vertex. Neither step is taken where it would flip more.
-    enum class Stage : std::uint8_t { smooth, untangle, mend, over };
+    /// Means of neighbours even the mesh out where it is good. Elsewhere a smooth energy of all
+    /// corners does. What is flipped then is untangled by turns, for as long as that makes flipped
+    /// quads fewer: the energy around bad quads, and the worst quad around each vertex. Neither
+    /// step is taken where it would flip more. What is still flipped has folded neighbours, and is
+    /// placed anew together with them.
+    enum class Stage : std::uint8_t { smooth, settle, untangle, mend, reopen, over };
 
+    static constexpr Index kSmoothRounds = 5;
     static constexpr int kMostTurns = 8;
     static constexpr int kMostInVain = 2;
+    /// Neighbourhoods that are placed anew.
+    static constexpr Index kMostAttempts = 160;
+    struct Attempt {
+        int rings;
+        bool spreads;
+    };
+    static constexpr std::array<Attempt, 8> kAttempts{{{1, true},
+                                                       {2, true},
+                                                       {2, false},
+                                                       {3, true},
+                                                       {4, false},
+                                                       {5, true},
+                                                       {8, true},
+                                                       {8, false}}};
     /// In lengths of the edges around a vertex.
     static constexpr double kLeastMove = 1e-3;
+    /// The least scaled Jacobian of vertices that look around.
+    static constexpr double kBadQuality = 0.1;
+
+    Index rounds_of_stage() const
+    {
+        switch (stage_) {
+            case Stage::smooth:
+                return std::min(kSmoothRounds, rounds_);
+            case Stage::settle:
+            case Stage::untangle:
+                return 2 * rounds_;
+            case Stage::mend:
+                return rounds_;
+            case Stage::reopen:
+                return rounds_ > 0 ? kMostAttempts : 0;
+            case Stage::over:
+                break;
+        }
+        return 0;
+    }
 
     /// A round of the stage; false if another one would change nothing.
     bool round()
     {
+        constexpr double kAll = 2;
         constexpr double kBadAtFirst = 0.2;
         constexpr double kBad = 0.1;
-        return stage_ == Stage::smooth     ? smooth()
-               : stage_ == Stage::untangle ? untangle(turn_ % 2 == 0 ? kBadAtFirst : kBad)
-                                           : mend();
+        switch (stage_) {
+            case Stage::smooth:
+                return smooth();
+            case Stage::settle:
+                return untangle(kAll);
+            case Stage::untangle:
+                return untangle(turn_ % 2 == 0 ? kBadAtFirst : kBad);
+            case Stage::mend:
+                return mend();
+            case Stage::reopen:
+                return reopen();
+            case Stage::over:
+                break;
+        }
+        return false;
+    }
+
+    void end_stage()
+    {
+        switch (stage_) {
+            case Stage::smooth:
+                stage_ = Stage::settle;
+                break;
+            case Stage::settle:
+                stage_ = Stage::untangle;
+                break;
+            case Stage::untangle:
+                stage_ = Stage::mend;
+                break;
+            case Stage::mend:
+                stage_ = next_turn();
+                break;
+            case Stage::reopen:
+            case Stage::over:
+                stage_ = Stage::over;
+                break;
+        }
     }
 
     Stage next_turn()
@@ -90,8 +174,9 @@ private:
         turns_in_vain_ = flipped < least_flipped_ ? 0 : turns_in_vain_ + 1;
         least_flipped_ = std::min(least_flipped_, flipped);
         ++turn_;
-        return flipped > 0 && turn_ < kMostTurns && turns_in_vain_ < kMostInVain ? Stage::untangle
-                                                                                 : Stage::over;
+        return flipped == 0                                         ? Stage::over
+               : turn_ < kMostTurns && turns_in_vain_ < kMostInVain ? Stage::untangle
+                                                                    : Stage::reopen;
     }
 
     bool smooth()
@@ -157,7 +242,7 @@ private:
     double move(Index v)
     {
         constexpr double kGood = 0.5;
-        Vec3 mean(0, 0, 0);
+        const Vec3 mean = mean_around(v);
         double length = 0;
         Index count = 0;
         for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
@@ -166,12 +251,10 @@ private:
             for (const auto step : {1, 3}) {
                 const Vec3& neighbour =
                     mesh_.positions[quad[static_cast<std::size_t>((at + step) % 4)]];
-                mean += neighbour;
                 length += (neighbour - mesh_.positions[v]).norm();
                 ++count;
             }
         }
-        mean /= count;
         length /= count;
         const SurfacePoint old_point = mesh_.points[v];
         const Vec3 old_position = mesh_.positions[v];
@@ -190,13 +273,128 @@ private:
         return 0;
     }
 
+    bool is_flipped(Index q) const
+    {
+        const auto& quad = mesh_.quads[q];
+        return !(scaled_jacobian(corners(quad), up(quad)) > 0);
+    }
+
     Index flipped_quads() const
     {
         Index count = 0;
-        for (const auto& quad : mesh_.quads) {
-            count += scaled_jacobian(corners(quad), up(quad)) > 0 ? 0 : 1;
+        for (Index q = 0; q < mesh_.quads.size(); ++q) {
+            count += is_flipped(q) ? 1 : 0;
         }
         return count;
+    }
+
+    /// Places the neighbourhood of the next flipped quad anew, in more and more rings; false once
+    /// none of them has helped.
+    bool reopen()
+    {
+        while (reopened_quad_ < mesh_.quads.size() &&
+               (reopened_size_ == kAttempts.size() || !is_flipped(reopened_quad_))) {
+            ++reopened_quad_;
+            reopened_size_ = 0;
+        }
+        if (reopened_quad_ < mesh_.quads.size()) {
+            has_reopened_ = reopen(reopened_quad_, kAttempts[reopened_size_++]) || has_reopened_;
+            return true;
+        }
+        const bool again = has_reopened_ && flipped_quads() > 0;
+        has_reopened_ = false;
+        reopened_quad_ = 0;
+        reopened_size_ = 0;
+        return again;
+    }
+
+    /// Spreads the vertices within some rings around a quad evenly, as means of their neighbours,
+    /// which opens folds, or lowers their energy whatever that flips on the way, and then improves
+    /// what is around them. All stays as it was unless fewer quads are flipped.
+    bool reopen(Index quad, const Attempt& attempt)
+    {
+        constexpr int kRoundsPerRing = 10;
+        constexpr int kTurns = 3;
+        constexpr int kImprovingRounds = 15;
+        constexpr int kMendingRounds = 5;
+        const std::vector<Index> inside = free_vertices_around(quad, attempt.rings);
+        const std::vector<Index> touched = quads_around(inside);
+        const auto flipped = [&] {
+            return std::count_if(touched.begin(), touched.end(),
+                                 [&](Index q) { return is_flipped(q); });
+        };
+        const auto before = flipped();
+        std::vector<std::pair<SurfacePoint, Vec3>> places;
+        for (const Index v : inside) {
+            places.emplace_back(mesh_.points[v], mesh_.positions[v]);
+        }
+        for (int round = 0; round < kRoundsPerRing * attempt.rings; ++round) {
+            for (const Index v : inside) {
+                if (!attempt.spreads) {
+                    improve(v, true);
+                    continue;
+                }
+                mesh_.points[v] = walk_to_nearest(target_, mesh_.points[v], mean_around(v));
+                mesh_.positions[v] = position_of(target_, mesh_.points[v]);
+            }
+        }
+        for (int turn = 0; turn < kTurns && flipped() > 0; ++turn) {
+            for (int round = 0; round < kImprovingRounds && flipped() > 0; ++round) {
+                for (const Index v : inside) {
+                    improve(v);
+                }
+            }
+            for (int round = 0; round < kMendingRounds && flipped() > 0; ++round) {
+                for (const Index v : inside) {
+                    if (quality(v) < kBadQuality) {
+                        look_around(v);
+                    }
+                }
+            }
+        }
+        if (flipped() < before) {
+            return true;
+        }
+        for (std::size_t i = 0; i < inside.size(); ++i) {
+            std::tie(mesh_.points[inside[i]], mesh_.positions[inside[i]]) = places[i];
+        }
+        return false;
+    }
+
+    /// In increasing order.
+    std::vector<Index> free_vertices_around(Index quad, int rings) const
+    {
+        std::set<Index> found(mesh_.quads[quad].begin(), mesh_.quads[quad].end());
+        for (int ring = 1; ring < rings; ++ring) {
+            for (const Index q : quads_around({found.begin(), found.end()})) {
+                found.insert(mesh_.quads[q].begin(), mesh_.quads[q].end());
+            }
+        }
+        std::vector<Index> free;
+        std::copy_if(found.begin(), found.end(), std::back_inserter(free),
+                     [&](Index v) { return !fixed_[v]; });
+        return free;
+    }
+
+    std::vector<Index> quads_around(const std::vector<Index>& vertices) const
+    {
+        std::set<Index> found;
+        for (const Index v : vertices) {
+            found.insert(quads_.begin() + offsets_[v], quads_.begin() + offsets_[v + 1]);
+        }
+        return {found.begin(), found.end()};
+    }
+
+    Vec3 mean_around(Index v) const
+    {
+        Vec3 sum(0, 0, 0);
+        for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+            const auto& quad = mesh_.quads[quads_[place]];
+            const auto at =
+                static_cast<std::size_t>(std::find(quad.begin(), quad.end(), v) - quad.begin());
+            sum += mesh_.positions[quad[(at + 1) % 4]] + mesh_.positions[quad[(at + 3) % 4]];
+        }
+        return sum / (2.0 * (offsets_[v + 1] - offsets_[v]));
     }
 
     /// Around quads whose scaled Jacobian is below `bad`, a sum over all corners goes down that
@@ -230,20 +428,12 @@ private:
 
     /// How far the corners of the quads around v are from those of squares: at a corner with the
     /// edges a and b, (a^2 + b^2) / (d + sqrt(d^2 + e^2)), where d is the signed area between them
-    /// as seen along the surface's normal, and e small.
+    /// as seen along the surface's normal, and e a small share of a^2 + b^2, so that small quads
+    /// beside large ones count as much.
     double distortion(Index v) const
     {
-        constexpr double kSmall = 1e-2;
-        double size = 0;
+        constexpr double kSmall = 5e-4;
         double sum = 0;
-        for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
-            const auto& quad = mesh_.quads[quads_[place]];
-            for (std::size_t i = 0; i < 4; ++i) {
-                size +=
-                    (mesh_.positions[quad[(i + 1) % 4]] - mesh_.positions[quad[i]]).squaredNorm();
-            }
-        }
-        size *= kSmall / (4.0 * (offsets_[v + 1] - offsets_[v]));
         for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
             const auto& quad = mesh_.quads[quads_[place]];
             const std::array<Vec3, 4> c = corners(quad);
@@ -253,8 +443,9 @@ private:
                 const Vec3 a = c[(i + 1) % 4] - c[i];
                 const Vec3 b = c[(i + 3) % 4] - c[i];
                 const double d = a.cross(b).dot(normal);
-                sum += (a.squaredNorm() + b.squaredNorm()) /
-                       std::max(d + std::sqrt(d * d + size * size), 1e-300);
+                const double squares = a.squaredNorm() + b.squaredNorm();
+                const double e = kSmall * squares;
+                sum += squares / std::max(d + std::sqrt(d * d + e * e), 1e-300);
             }
         }
         return sum;
@@ -263,10 +454,9 @@ private:
     /// Vertices around bad quads look around for a place where the worst quad is better.
     bool mend()
     {
-        constexpr double kBad = 0.1;
         bool improved = false;
         for (Index v = 0; v < mesh_.positions.size(); ++v) {
-            if (!fixed_[v] && quality(v) < kBad) {
+            if (!fixed_[v] && quality(v) < kBadQuality) {
                 improved = look_around(v) || improved;
             }
         }
@@ -311,8 +501,8 @@ private:
     }
 
     /// Moves v by a Newton step in the tangent plane, cut back until it lowers the distortion and
-    /// flips no more quads. Returns by which share it lowered the distortion.
-    double improve(Index v)
+    /// flips no more quads, unless it may. Returns by which share it lowered the distortion.
+    double improve(Index v, bool may_flip = false)
     {
         constexpr int kHalvings = 6;
         const Vec3 old_position = mesh_.positions[v];
@@ -350,7 +540,7 @@ private:
                                               old_position + step.x() * across + step.y() * along);
             mesh_.positions[v] = position_of(target_, mesh_.points[v]);
             const double after = distortion(v);
-            if (after < before && flipped_around(v) <= flipped) {
+            if (after < before && (may_flip || flipped_around(v) <= flipped)) {
                 return 1 - after / before;
             }
         }
@@ -368,6 +558,10 @@ private:
     int turn_ = 0;
     int turns_in_vain_ = 0;
     Index least_flipped_ = kNone;
+    // While neighbourhoods are placed anew: the next quad, and the next number of rings around it.
+    Index reopened_quad_ = 0;
+    std::size_t reopened_size_ = 0;
+    bool has_reopened_ = false;
     std::vector<bool> is_active_;                   // per vertex, while smoothing
     std::vector<Vec3> normals_;                     // per face of the target
     const Domain directions_ = regular_polygon(8);  // that are tried around a vertex

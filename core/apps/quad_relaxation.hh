@@ -7,11 +7,12 @@
 
 namespace layout_embedding {
 
-/// Moves the vertices of a quad mesh that are not fixed towards the means of their neighbours and
-/// back to the target, one after the other, `rounds` times or until they hardly move. A move is
-/// made only if the smallest scaled Jacobian of the quads around the vertex stays above 0.5 or
-/// grows. Then bad quads are untangled and the worst ones mended, by turns, for as long as fewer
-/// stay flipped.
+/// Moves the vertices of a quad mesh that are not fixed, on the target and one after the other: a
+/// few rounds towards the means of their neighbours, where the smallest scaled Jacobian of the
+/// quads around stays above 0.5 or grows; then 2 * `rounds` rounds, or until they hardly move, to
+/// lower an energy that grows as corners become flat. Then bad quads are untangled and the worst
+/// ones mended, by turns, for as long as fewer stay flipped, and neighbourhoods of what is flipped
+/// even so are placed anew where that helps.
 class QuadRelaxation {
 public:
     /// `target` and `mesh` must outlive this; `fixed` says so of every vertex.

@@ -17,6 +17,8 @@ struct CollectionCheckOptions {
     /// Also embed the mirror image of each template, and each template with two landmarks
     /// exchanged, and count what is said of them.
     bool doubts = false;
+    /// check_maps_of_collection(): not quad meshes alone, maps as well.
+    bool maps = false;
 };
 
 /// Embeds the template layout of every member of the given classes in other members, by the exact

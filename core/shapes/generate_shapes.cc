@@ -42,14 +42,15 @@ constexpr const char* kUsage =
     "    everything, without --doubts\n"
     "generate_shapes --check --maps [--class NAME] [--member N] [--others N] [--vertices N]\n"
     "    embeds the quad template of member N (0) of each class in it and in others, makes quad\n"
-    "    meshes of the same connectivity, and maps it onto the others\n";
+    "    meshes of the same connectivity, and maps it onto the others; with --quads instead of\n"
+    "    --maps, without maps\n";
 
 struct Arguments {
     bool list = false;
     bool all = false;
     bool statistics = false;
     bool check = false;
-    bool maps = false;
+    bool quads = false;
     CollectionCheckOptions check_options;
     std::string class_name;
     /// Empty for all.
@@ -99,7 +100,9 @@ bool parse(int count, char** words, Arguments& arguments)
         } else if (word == "--check") {
             arguments.check = true;
         } else if (word == "--maps") {
-            arguments.maps = true;
+            arguments.quads = arguments.check_options.maps = true;
+        } else if (word == "--quads") {
+            arguments.quads = true;
         } else if (word == "--doubts") {
             arguments.check_options.doubts = true;
         } else if (word == "--class") {
@@ -317,7 +320,7 @@ int run(int count, char** words)
         if (arguments.options.vertices != 0) {
             options.vertices = arguments.options.vertices;
         }
-        if (arguments.maps) {
+        if (arguments.quads) {
             const bool all =
                 check_maps_of_collection(chosen(arguments), arguments.members, options);
             return all ? 0 : 1;

@@ -57,6 +57,13 @@ struct MapTotals {
     Index complete = 0;
     std::size_t quads = 0;
     std::size_t flipped = 0;
+
+    void add(const QuadMesh& mesh)
+    {
+        quads += mesh.quads.size();
+        flipped += mesh.statistics.flipped;
+    }
+
     std::vector<double> energies;
 };
 
@@ -86,6 +93,10 @@ bool check_template(const ShapeClass& shape_class, Index from,
     if (!first) {
         return false;
     }
+    totals.add(first->quads);
+    std::printf("%-13s %-14s    %-14s %5zu quads, %3u flipped\n", shape_class.name.c_str(),
+                shape_class.members[from].c_str(), "", first->quads.quads.size(),
+                first->quads.statistics.flipped);
     // All members get the numbers of segments of the first one.
     QuadOptions quad_options;
     quad_options.segments_as = first->quads.segments;
@@ -104,15 +115,19 @@ bool check_template(const ShapeClass& shape_class, Index from,
             all = false;
             continue;
         }
+        const bool same = first->quads.quads == second->quads.quads;
+        totals.add(second->quads);
+        std::printf("%5zu quads%s, %3u flipped%s", second->quads.quads.size(),
+                    same ? "" : " (OTHER CONNECTIVITY)", second->quads.statistics.flipped,
+                    options.maps ? "; " : "\n");
+        all = all && same;
+        if (!options.maps) {
+            std::fflush(stdout);
+            continue;
+        }
         const double start = cpu_seconds();
         const auto map = SurfaceMap::make(layout, first->target, second->target);
         const double seconds = cpu_seconds() - start;
-        const bool same = first->quads.quads == second->quads.quads;
-        totals.quads += second->quads.quads.size();
-        totals.flipped += second->quads.statistics.flipped;
-        std::printf("%5zu quads%s, %3zu flipped; ", second->quads.quads.size(),
-                    same ? "" : " (OTHER CONNECTIVITY)",
-                    static_cast<std::size_t>(second->quads.statistics.flipped));
         if (!map) {
             std::printf("%s\n", map.error().message.c_str());
             all = false;
@@ -122,7 +137,6 @@ bool check_template(const ShapeClass& shape_class, Index from,
                     map->first_distortion().mean_energy, map->distortion().mean_energy,
                     map->distortion().mean_conformal, map->distortion().mean_area, seconds);
         std::fflush(stdout);
-        all = all && same;
         ++totals.complete;
         totals.energies.push_back(map->distortion().mean_energy);
     }
@@ -144,8 +158,10 @@ bool check_maps_of_collection(const std::vector<const ShapeClass*>& classes,
             }
         }
     }
-    std::printf("%u of %u pairs mapped; %zu of %zu quads flipped", totals.complete, totals.pairs,
-                totals.flipped, totals.quads);
+    if (options.maps) {
+        std::printf("%u of %u pairs mapped; ", totals.complete, totals.pairs);
+    }
+    std::printf("%zu of %zu quads flipped", totals.flipped, totals.quads);
     if (!totals.energies.empty()) {
         std::sort(totals.energies.begin(), totals.energies.end());
         std::printf("; energy: median %.3f, largest %.3f",
