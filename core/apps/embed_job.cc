@@ -55,12 +55,14 @@ bool is_heuristic(Algorithm algorithm)
 
 std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathGraph& graph,
                                     std::uint64_t field_bytes, const EmbedOptions& options,
-                                    std::vector<ClassConstraint> constraints)
+                                    std::vector<ClassConstraint> constraints,
+                                    std::vector<std::vector<std::vector<Index>>> excluded)
 {
     if (options.algorithm == Algorithm::exact) {
         ExactSolverOptions exact;
         exact.gap = options.gap;
         exact.constraints = std::move(constraints);
+        exact.excluded = std::move(excluded);
         return std::make_unique<ExactSolver>(problem, graph, field_bytes, exact);
     }
     if (options.algorithm == Algorithm::branch_and_bound) {
@@ -151,10 +153,11 @@ struct EmbedJob::Implementation {
     {
         final_status = status;
         const bool stopped = status == EmbedStatus::cancelled || status == EmbedStatus::time_limit;
-        // What a heuristic finds may be long for no other reason than the heuristic, and what is
-        // asked of paths makes others longer.
+        // What a heuristic finds may be long for no other reason than the heuristic, what is asked
+        // of paths makes others longer, and weights belong to the layout as it is.
         const bool comparable = options.look_for_doubts && !is_heuristic(options.algorithm) &&
-                                options.constraints.empty() && boundary.empty();
+                                options.constraints.empty() && options.excluded.empty() &&
+                                options.edge_weights.empty() && boundary.empty();
         if (stopped || compared || !comparable) {
             end(status);
             return;
@@ -216,9 +219,12 @@ struct EmbedJob::Implementation {
         }
         result.bound_scope = scope;
         result.exact_lower_bound = bound;
-        result.lower_bound = graph->to_units(bound);
+        result.lower_bound = to_units(bound);
         set_gap();
     }
+
+    /// A cost in the target's units.
+    double to_units(Length cost) const { return graph->to_units(cost) * problem.weights.unit(); }
 
     void set_gap()
     {
@@ -242,10 +248,13 @@ struct EmbedJob::Implementation {
                  ? RepulsiveGuide::estimate_bytes(target.vertex_count(),
                                                   problem.layout->vertex_count())
                  : 0);
-        if (Status possible = check_metric(); !possible) {
-            fail(EmbedStatus::failed, possible.error());
-            return;
+        for (const Status& possible : {check_metric(), check_weights()}) {
+            if (!possible) {
+                fail(EmbedStatus::failed, possible.error());
+                return;
+            }
         }
+        problem.weights = EdgeWeights(options.edge_weights);
         if (needed > options.memory_limit) {
             fail(EmbedStatus::memory_limit,
                  make_error(ErrorCode::memoryLimit,
@@ -285,6 +294,26 @@ struct EmbedJob::Implementation {
         return {};
     }
 
+    Status check_weights() const
+    {
+        const auto& weights = options.edge_weights;
+        const Index edges = problem.layout->edge_count();
+        if (!weights.empty() && weights.size() != edges) {
+            return make_error(ErrorCode::invalidOption,
+                              std::to_string(weights.size()) + " weights are given for the " +
+                                  std::to_string(edges) + " edges of the layout");
+        }
+        for (Index e = 0; e < weights.size(); ++e) {
+            if (!(weights[e] >= kMinEdgeWeight && weights[e] <= kMaxEdgeWeight)) {
+                return make_error(
+                    ErrorCode::invalidOption,
+                    "the weight of layout edge " + std::to_string(e) + " is not from 0.001 to 1000",
+                    {{"edge", e}});
+            }
+        }
+        return {};
+    }
+
     /// False if that ended the job.
     bool build_solver()
     {
@@ -293,8 +322,9 @@ struct EmbedJob::Implementation {
         edge_costs = metric.feature_discount > 0
                          ? feature_costs(*problem.target, metric.feature_discount)
                          : std::vector<double>{};
-        graph = std::make_unique<PathGraph>(
-            make_graph(*problem.target, {options.seed, attempt, metric.vertex_costs, edge_costs}));
+        graph = std::make_unique<PathGraph>(make_graph(
+            *problem.target,
+            {options.seed, attempt, metric.vertex_costs, edge_costs, problem.weights.largest()}));
         if (!options.constraints.empty() && options.algorithm != Algorithm::exact) {
             fail(EmbedStatus::failed,
                  make_error(ErrorCode::invalidOption,
@@ -304,6 +334,17 @@ struct EmbedJob::Implementation {
         auto constraints = class_constraints(problem, *graph, options.constraints);
         if (!constraints) {
             fail(EmbedStatus::failed, constraints.error());
+            return false;
+        }
+        if (!options.excluded.empty() && options.algorithm != Algorithm::exact) {
+            fail(EmbedStatus::failed,
+                 make_error(ErrorCode::invalidOption,
+                            "embeddings are to be excluded, which only the exact method can do"));
+            return false;
+        }
+        auto excluded = embedding_darts(problem, *graph, options.excluded);
+        if (!excluded) {
+            fail(EmbedStatus::failed, excluded.error());
             return false;
         }
         boundary.clear();
@@ -326,7 +367,8 @@ struct EmbedJob::Implementation {
                 constraints->push_back({path.layout_edge, true, path.darts});
             }
         }
-        solver = make_solver(problem, *graph, field_bytes, options, std::move(*constraints));
+        solver = make_solver(problem, *graph, field_bytes, options, std::move(*constraints),
+                             std::move(*excluded));
         return true;
     }
 
@@ -449,10 +491,9 @@ struct EmbedJob::Implementation {
                 return;
             }
             for (const BoundaryPath& path : boundary) {
-                extra += static_cast<std::int64_t>(path.length);
-                for (const Index dart : incumbent.paths[path.layout_edge].darts) {
-                    extra -= static_cast<std::int64_t>(graph->dart(dart).length);
-                }
+                const Index e = path.layout_edge;
+                extra += static_cast<std::int64_t>(problem.weights.cost(e, path.length));
+                extra -= static_cast<std::int64_t>(cost_of(incumbent, e));
             }
             incumbent = std::move(*moved);
         }
@@ -463,7 +504,7 @@ struct EmbedJob::Implementation {
             extra_cost = extra;
             set_lower_bound(solver->lower_bound(), solver->bound_scope());
         }
-        result.cost = graph->to_units(result.exact_cost);
+        result.cost = to_units(result.exact_cost);
         set_gap();
         emit(EventKind::incumbent, solver->progress());
     }
@@ -526,16 +567,21 @@ struct EmbedJob::Implementation {
         }
     }
 
+    Length cost_of(const WeakEmbedding& embedding, Index layout_edge) const
+    {
+        Length length = 0;
+        for (const Index dart : embedding.paths[layout_edge].darts) {
+            length += graph->dart(dart).length;
+        }
+        return problem.weights.cost(layout_edge, length);
+    }
+
     void measure_edges(const NormalForm& even)
     {
         result.edge_costs.clear();
         result.even_lengths.clear();
         for (Index edge = 0; edge < even.strand_count(); ++edge) {
-            Length cost = 0;
-            for (const Index dart : result.weak.paths[edge].darts) {
-                cost += graph->dart(dart).length;
-            }
-            result.edge_costs.push_back(graph->to_units(cost));
+            result.edge_costs.push_back(to_units(cost_of(result.weak, edge)));
             result.even_lengths.push_back(even.length(edge));
         }
     }

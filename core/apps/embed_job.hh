@@ -75,6 +75,10 @@ struct EmbedOptions {
     /// What is asked of single paths; for the exact method alone. Costs and bounds are those of the
     /// embeddings that comply.
     std::vector<PathConstraint> constraints;
+    /// Embeddings that are not to be found again, each differing from what is in the homotopy class
+    /// of at least one path: with the best ones here, the next best is found. For the exact method
+    /// alone; bounds are those of all other embeddings.
+    std::vector<EmbeddingPaths> excluded;
     /// Whether layout boundary edges with both landmarks on the target's boundary run along it
     /// (apps/boundary_paths.hh); for the exact method alone. Costs and bounds are those of the
     /// embeddings with these paths. Error: invalidOption.
@@ -84,6 +88,10 @@ struct EmbedOptions {
     /// unless it shares them with others, of which one keeps to the edge. Apart from that, `short`
     /// is short on the surface: vertex costs do not count there. Error: invalidOption.
     PathMetric metric;
+    /// Per layout edge, how much the length of its path counts (EdgeWeights); none for 1. What the
+    /// problem says of weights is replaced. Costs, bounds and the gap are of weighted lengths.
+    /// Error: invalidOption.
+    std::vector<double> edge_weights;
 };
 
 /// A few seconds on the machines of today.

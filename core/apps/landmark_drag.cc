@@ -57,11 +57,16 @@ LandmarkDrag::LandmarkDrag(EmbeddingProblem problem, const PathGraph& graph,
 
 double LandmarkDrag::cost() const
 {
+    return graph_.to_units(cost_of(embedding_)) * problem_.weights.unit();
+}
+
+Length LandmarkDrag::cost_of(const WeakEmbedding& embedding) const
+{
     Length sum = 0;
-    for (const WeakPath& path : embedding_.paths) {
-        sum += length_of(graph_, path.darts);
+    for (Index edge = 0; edge < embedding.paths.size(); ++edge) {
+        sum += problem_.weights.cost(edge, length_of(graph_, embedding.paths[edge].darts));
     }
-    return graph_.to_units(sum);
+    return sum;
 }
 
 bool LandmarkDrag::is_allowed(Index target_vertex) const
@@ -168,9 +173,7 @@ std::optional<LandmarkDrag::Attempt> LandmarkDrag::embed(const EmbeddingProblem&
     }
     attempt.embedding = strands.weak_embedding();
     attempt.order = strands.insertion_order();
-    for (const WeakPath& path : attempt.embedding.paths) {
-        attempt.cost += length_of(graph_, path.darts);
-    }
+    attempt.cost = cost_of(attempt.embedding);
     return attempt;
 }
 

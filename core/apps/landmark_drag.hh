@@ -63,6 +63,7 @@ private:
 
     bool is_allowed(Index target_vertex) const;
     bool is_at_landmark(Index layout_edge) const;
+    Length cost_of(const WeakEmbedding& embedding) const;
     std::optional<Attempt> embed(const EmbeddingProblem& problem, bool own_paths_first);
 
     EmbeddingProblem problem_;

@@ -48,12 +48,52 @@ Index dart_between(const PathGraph& graph, Index from, Index to)
     return kNone;
 }
 
-Error invalid_path(const PathConstraint& constraint, const std::string& what)
+Error invalid_path(Index layout_edge, const std::string& what)
 {
-    return make_error(
-        ErrorCode::invalidPath,
-        "the path given for layout edge " + std::to_string(constraint.layout_edge) + " " + what,
-        {{"edge", constraint.layout_edge}});
+    return make_error(ErrorCode::invalidPath,
+                      "the path given for layout edge " + std::to_string(layout_edge) + " " + what,
+                      {{"edge", layout_edge}});
+}
+
+std::vector<Index> landmark_nodes(const EmbeddingProblem& problem, const PathGraph& graph)
+{
+    std::vector<Index> nodes;
+    for (const Index vertex : problem.landmarks) {
+        nodes.push_back(graph.node_of_vertex(vertex));
+    }
+    return nodes;
+}
+
+/// The darts along a path of a layout edge, from landmark to landmark.
+Result<std::vector<Index>> darts_along(const EmbeddingProblem& problem, const PathGraph& graph,
+                                       const std::vector<Index>& landmarks, Index layout_edge,
+                                       const std::vector<WeakPoint>& path)
+{
+    const Layout& layout = *problem.layout;
+    std::vector<Index> nodes;
+    for (const WeakPoint& point : path) {
+        nodes.push_back(node_at(*problem.target, graph, point));
+        if (nodes.back() == kNone) {
+            return invalid_path(layout_edge, "has a point " + std::to_string(nodes.size() - 1) +
+                                                 " that is nowhere on the target");
+        }
+    }
+    if (nodes.size() < 2 || nodes.front() != landmarks[layout.tail(2 * layout_edge)] ||
+        nodes.back() != landmarks[layout.head(2 * layout_edge)]) {
+        return invalid_path(layout_edge, "does not run between the landmarks of its ends");
+    }
+    std::vector<Index> darts;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        if (i > 0 && std::find(landmarks.begin(), landmarks.end(), nodes[i]) != landmarks.end()) {
+            return invalid_path(layout_edge, "runs through a landmark");
+        }
+        darts.push_back(dart_between(graph, nodes[i], nodes[i + 1]));
+        if (darts.back() == kNone) {
+            return invalid_path(layout_edge,
+                                "has no way from its point " + std::to_string(i) + " to the next");
+        }
+    }
+    return darts;
 }
 
 }  // namespace
@@ -62,43 +102,44 @@ Result<std::vector<ClassConstraint>> class_constraints(
     const EmbeddingProblem& problem, const PathGraph& graph,
     const std::vector<PathConstraint>& constraints)
 {
-    const Layout& layout = *problem.layout;
-    std::vector<Index> landmark_nodes;
-    for (const Index vertex : problem.landmarks) {
-        landmark_nodes.push_back(graph.node_of_vertex(vertex));
-    }
+    const std::vector<Index> landmarks = landmark_nodes(problem, graph);
     std::vector<ClassConstraint> result;
     for (const PathConstraint& constraint : constraints) {
         const Index e = constraint.layout_edge;
-        if (e >= layout.edge_count()) {
-            return invalid_path(constraint, "is for an edge that the layout has not, of its " +
-                                                std::to_string(layout.edge_count()));
+        if (e >= problem.layout->edge_count()) {
+            return invalid_path(e, "is for an edge that the layout has not, of its " +
+                                       std::to_string(problem.layout->edge_count()));
         }
-        std::vector<Index> nodes;
-        for (const WeakPoint& point : constraint.path) {
-            nodes.push_back(node_at(*problem.target, graph, point));
-            if (nodes.back() == kNone) {
-                return invalid_path(constraint, "has a point " + std::to_string(nodes.size() - 1) +
-                                                    " that is nowhere on the target");
+        auto darts = darts_along(problem, graph, landmarks, e, constraint.path);
+        if (!darts) {
+            return darts.error();
+        }
+        result.push_back({e, constraint.is_kept, std::move(*darts)});
+    }
+    return result;
+}
+
+Result<std::vector<std::vector<std::vector<Index>>>> embedding_darts(
+    const EmbeddingProblem& problem, const PathGraph& graph,
+    const std::vector<EmbeddingPaths>& embeddings)
+{
+    const std::vector<Index> landmarks = landmark_nodes(problem, graph);
+    std::vector<std::vector<std::vector<Index>>> result;
+    for (const EmbeddingPaths& paths : embeddings) {
+        if (paths.size() != problem.layout->edge_count()) {
+            return make_error(ErrorCode::invalidPath,
+                              "an embedding to be excluded has " + std::to_string(paths.size()) +
+                                  " paths for the " + std::to_string(problem.layout->edge_count()) +
+                                  " edges of the layout");
+        }
+        result.emplace_back();
+        for (Index e = 0; e < paths.size(); ++e) {
+            auto darts = darts_along(problem, graph, landmarks, e, paths[e]);
+            if (!darts) {
+                return darts.error();
             }
+            result.back().push_back(std::move(*darts));
         }
-        if (nodes.size() < 2 || nodes.front() != landmark_nodes[layout.tail(2 * e)] ||
-            nodes.back() != landmark_nodes[layout.head(2 * e)]) {
-            return invalid_path(constraint, "does not run between the landmarks of its ends");
-        }
-        ClassConstraint in_graph{e, constraint.is_kept, {}};
-        for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-            if (i > 0 && std::find(landmark_nodes.begin(), landmark_nodes.end(), nodes[i]) !=
-                             landmark_nodes.end()) {
-                return invalid_path(constraint, "runs through a landmark");
-            }
-            in_graph.darts.push_back(dart_between(graph, nodes[i], nodes[i + 1]));
-            if (in_graph.darts.back() == kNone) {
-                return invalid_path(
-                    constraint, "has no way from its point " + std::to_string(i) + " to the next");
-            }
-        }
-        result.push_back(std::move(in_graph));
     }
     return result;
 }

@@ -23,9 +23,18 @@ struct PathConstraint {
     std::vector<WeakPoint> path;
 };
 
+/// An embedding by one path per layout edge, each as in PathConstraint.
+using EmbeddingPaths = std::vector<std::vector<WeakPoint>>;
+
 /// The same in terms of a path graph. Errors: invalidPath.
 Result<std::vector<ClassConstraint>> class_constraints(
     const EmbeddingProblem& problem, const PathGraph& graph,
     const std::vector<PathConstraint>& constraints);
+
+/// Embeddings as darts of a path graph, per embedding and layout edge. Errors: invalidPath where
+/// there is not one path per layout edge, or a path is none.
+Result<std::vector<std::vector<std::vector<Index>>>> embedding_darts(
+    const EmbeddingProblem& problem, const PathGraph& graph,
+    const std::vector<EmbeddingPaths>& embeddings);
 
 }  // namespace layout_embedding

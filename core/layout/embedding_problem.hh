@@ -6,6 +6,7 @@
 
 #include "base/result.hh"
 #include "base/types.hh"
+#include "layout/edge_weights.hh"
 #include "layout/layout.hh"
 #include "mesh/triangle_mesh.hh"
 
@@ -18,6 +19,8 @@ struct EmbeddingProblem {
     std::shared_ptr<const TriangleMesh> target;
     /// #V_layout target vertex ids, all different.
     std::vector<Index> landmarks;
+    /// What is minimised is the sum of the paths' lengths times these.
+    EdgeWeights weights = {};
 };
 
 /// Confirms that the landmarks are different vertices of the target: landmarkOutOfRange,

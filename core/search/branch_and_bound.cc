@@ -484,6 +484,7 @@ BranchAndBound::Outcome BranchAndBound::accept_candidates()
         case Incumbent::Outcome::tied:
             return Outcome::tied;
         case Incumbent::Outcome::rejected:
+        case Incumbent::Outcome::excluded:
             break;
     }
     return Outcome::finished;

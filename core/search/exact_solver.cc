@@ -41,7 +41,7 @@ ExactSolver::ExactSolver(const EmbeddingProblem& problem, const PathGraph& graph
                          std::uint64_t field_bytes, const ExactSolverOptions& options)
     : options_(options),
       graph_(graph),
-      space_(problem, graph, field_bytes, true, options.constraints),
+      space_(problem, graph, field_bytes, true, options.constraints, options.excluded),
       start_(problem, space_, options.local_search ? kLocalSearch : 0, options.gap),
       selection_(*problem.layout, space_.pool,
                  options.faces
@@ -83,6 +83,12 @@ bool ExactSolver::bound_has_risen()
 Length ExactSolver::base(Index layout_edge) const
 {
     return space_.pool.cost(start_.root_walks()[layout_edge]);
+}
+
+/// All classes that cost less are known of the edge whose classes are enumerated.
+Length ExactSolver::frontier() const
+{
+    return space_.strands.weights().cost(open_[next_open_].edge, enumeration_.frontier());
 }
 
 Solver::Outcome ExactSolver::run(WorkBudget& budget)
@@ -159,6 +165,7 @@ void ExactSolver::learn()
         const auto& explanation = explanations[learned_explanations_];
         selection_.add_bound(explanation.layout_edge, explanation.blockers, explanation.bound);
     }
+    space_.excluded.for_each_new([&](std::span<const Index> walks) { selection_.forbid(walks); });
 }
 
 Solver::Outcome ExactSolver::select(WorkBudget& budget)
@@ -342,7 +349,7 @@ bool ExactSolver::begin_enumeration(Index edge, Length limit, std::uint64_t expa
     if (!space_.embedding.move_strands()) {
         return false;
     }
-    enumeration_.begin(space_.cuts.of(edge), edge, limit);
+    enumeration_.begin(space_.cuts.of(edge), edge, space_.strands.weights().length(edge, limit));
     expansions_ = 0;
     max_expansions_ = expansions;
     stage_ = Stage::enumerate;
@@ -354,7 +361,7 @@ Solver::Outcome ExactSolver::enumerate(WorkBudget& budget)
     const OpenEdge& open = open_[next_open_];
     for (;;) {
         if (expansions_ >= max_expansions_) {
-            if (is_exploration_ || enumeration_.frontier() > open.bound) {
+            if (is_exploration_ || frontier() > open.bound) {
                 end_enumeration();
                 return Outcome::finished;
             }
@@ -392,7 +399,7 @@ Solver::Outcome ExactSolver::enumerate(WorkBudget& budget)
 void ExactSolver::end_enumeration()
 {
     const Index edge = open_[next_open_].edge;
-    const Length frontier = enumeration_.frontier();
+    const Length frontier = this->frontier();
     std::vector<Index> blockers = enumeration_.blockers();
     for (Index& blocker : blockers) {
         blocker = space_.embedding.walk(blocker);
@@ -463,6 +470,7 @@ Solver::Outcome ExactSolver::offer()
         case Incumbent::Outcome::tied:
             return Outcome::tied;
         case Incumbent::Outcome::rejected:
+        case Incumbent::Outcome::excluded:
             return Outcome::finished;
         case Incumbent::Outcome::accepted:
             break;

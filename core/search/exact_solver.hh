@@ -16,6 +16,9 @@ struct ExactSolverOptions {
     double gap = 0;
     /// What is asked of single edges. Bounds are those of the embeddings that comply.
     std::vector<ClassConstraint> constraints;
+    /// Embeddings that do not count (ExcludedEmbeddings), as those found before when the next best
+    /// is asked for. Bounds are those of all others.
+    std::vector<std::vector<std::vector<Index>>> excluded;
     /// Parts that can be switched off to see what they contribute; the optimum stays the same.
     /// Improve the start by insertion that looks ahead and local search on insertion orders.
     bool local_search = true;
@@ -88,6 +91,7 @@ private:
     Outcome improve(WorkBudget& budget);
 
     Length base(Index layout_edge) const;
+    Length frontier() const;
     Length rest_bound(Index layout_edge) const;
     void add_rest_bound(Index layout_edge, std::vector<Index> blockers, Length bound);
     void raise_open_bound(Length bound);

@@ -67,8 +67,9 @@ GreedySearch::Outcome GreedySearch::finish_search(bool found)
     candidate.darts = search_.darts();
     if (stage_ == Stage::bounding) {
         ++next_root_;
-        lower_bound_ = found && lower_bound_ != kInfiniteLength ? lower_bound_ + search_.cost()
-                                                                : kInfiniteLength;
+        lower_bound_ = found && lower_bound_ != kInfiniteLength
+                           ? lower_bound_ + strands_.weights().cost(edge, search_.cost())
+                           : kInfiniteLength;
         return has_root_bound() ? begin_inserting() : Outcome::running;
     }
     if (stage_ == Stage::inserting && found) {
@@ -139,7 +140,7 @@ GreedySearch::Outcome GreedySearch::keep_inserted(Index layout_edge)
         return stage_ == Stage::inserting ? Outcome::running : Outcome::failed;
     }
     ++insertion_count_;
-    embedded_cost_ += length(strands_.darts(layout_edge));
+    embedded_cost_ += strands_.weights().cost(layout_edge, length(strands_.darts(layout_edge)));
     const bool complete = strands_.insertion_order().size() == edge_count_;
     if (stage_ == Stage::inserting_again) {
         return complete ? Outcome::complete : Outcome::inserted;

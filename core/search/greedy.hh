@@ -80,7 +80,8 @@ public:
     /// functions are not interrupted.
     Outcome run(std::uint64_t max_expansions = UINT64_MAX);
 
-    /// The sum of the unconstrained path lengths known so far; kInfiniteLength if an edge has none.
+    /// The sum of what the unconstrained paths known so far cost; kInfiniteLength if an edge has
+    /// none.
     Length lower_bound() const { return lower_bound_; }
     /// Whether lower_bound() has all edges in it.
     bool has_root_bound() const { return next_root_ == edge_count_; }
@@ -89,7 +90,7 @@ public:
     {
         return (plain_.empty() ? candidates_ : plain_)[layout_edge].darts;
     }
-    /// The length of the embedded paths.
+    /// What the embedded paths cost.
     Length embedded_cost() const { return embedded_cost_; }
     /// Share of the insertions that are done, in [0, 1].
     double progress() const;

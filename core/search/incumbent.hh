@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/types.hh"
+#include "search/excluded_embeddings.hh"
 #include "search/partial_embedding.hh"
 #include "surface/weak_embedding.hh"
 
@@ -11,7 +12,18 @@ namespace layout_embedding {
 /// The best complete embedding that a search has found so far.
 class Incumbent {
 public:
-    enum class Outcome { rejected, accepted, tied };
+    enum class Outcome {
+        /// Not better.
+        rejected,
+        /// Better, but not to be found.
+        excluded,
+        accepted,
+        tied,
+    };
+
+    Incumbent() = default;
+    /// Never becomes one of these. Keeps a reference.
+    explicit Incumbent(ExcludedEmbeddings& excluded) : excluded_(&excluded) {}
 
     bool exists() const { return cost_ != kInfiniteLength; }
     /// kInfiniteLength without one.
@@ -27,6 +39,9 @@ public:
         if (embedding.cost() >= cost_) {
             return Outcome::rejected;
         }
+        if (excluded_ != nullptr && excluded_->contain(embedding.sequence())) {
+            return Outcome::excluded;
+        }
         if (!embedding.move_strands()) {
             return Outcome::tied;
         }
@@ -37,6 +52,7 @@ public:
     }
 
 private:
+    ExcludedEmbeddings* excluded_ = nullptr;
     std::vector<Index> walks_;
     Length cost_ = kInfiniteLength;
     WeakEmbedding weak_;

@@ -151,17 +151,19 @@ LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
         }
         in_trial_ = false;
         if (outcome == Outcome::improved) {
+            const auto offered = incumbent_.offer(embedding_);
+            if (offered == Incumbent::Outcome::tied) {
+                return Outcome::tied;
+            }
+            if (offered == Incumbent::Outcome::excluded) {
+                continue;
+            }
             current_ = embedding_.sequence();
             current_cost_ = embedding_.cost();
             find_moves();
-            switch (incumbent_.offer(embedding_)) {
-                case Incumbent::Outcome::accepted:
-                    kicks_ = 0;
-                    return Outcome::improved;
-                case Incumbent::Outcome::tied:
-                    return Outcome::tied;
-                case Incumbent::Outcome::rejected:
-                    break;
+            if (offered == Incumbent::Outcome::accepted) {
+                kicks_ = 0;
+                return Outcome::improved;
             }
         } else if (is_kick_) {
             // No embedding in this order.

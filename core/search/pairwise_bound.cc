@@ -4,19 +4,12 @@
 
 namespace layout_embedding {
 
-namespace {
-
-// Expansions that looking for the second class of an edge may take.
-constexpr std::uint64_t kMaxExpansions = 20'000;
-
-}  // namespace
-
 PairwiseBound::PairwiseBound(PartialEmbedding& embedding, PathOracle& oracle,
                              DistanceFields& fields)
     : embedding_(embedding),
       oracle_(oracle),
       cuts_(embedding.strands()),
-      enumeration_(embedding.strands(), fields)
+      second_(cuts_, embedding.strands(), fields)
 {}
 
 void PairwiseBound::begin(std::span<const Index> root_walks)
@@ -77,31 +70,18 @@ PairwiseBound::Outcome PairwiseBound::run(WorkBudget& budget)
 
 PairwiseBound::Outcome PairwiseBound::find_second(Index edge, WorkBudget& budget)
 {
-    if (!is_enumerating_) {
-        enumeration_.begin(cuts_.of(edge), edge);
-        is_enumerating_ = true;
-        found_ = 0;
-        expansions_left_ = kMaxExpansions;
-    }
-    while (!budget.is_spent()) {
-        const std::uint64_t expansions = enumeration_.expansion_count();
-        const std::uint64_t work = enumeration_.work_count();
-        const auto outcome = enumeration_.run(expansions_left_, budget.left());
-        expansions_left_ -= enumeration_.expansion_count() - expansions;
-        budget.charge(enumeration_.work_count() - work);
-        if (outcome == ClassEnumeration::Outcome::tied) {
+    switch (second_.run(edge, budget)) {
+        case SecondClass::Outcome::running:
+            return Outcome::running;
+        case SecondClass::Outcome::tied:
             return Outcome::tied;
-        }
-        found_ += outcome == ClassEnumeration::Outcome::found ? 1 : 0;
-        if (found_ == 2 || outcome == ClassEnumeration::Outcome::exceeded ||
-            expansions_left_ == 0) {
-            seconds_[edge] = std::max(seconds_[edge],
-                                      found_ == 2 ? enumeration_.cost() : enumeration_.frontier());
-            is_enumerating_ = false;
-            return Outcome::finished;
-        }
+        case SecondClass::Outcome::found:
+        case SecondClass::Outcome::bounded:
+            break;
     }
-    return Outcome::running;
+    const EdgeWeights& weights = embedding_.strands().weights();
+    seconds_[edge] = std::max(seconds_[edge], weights.cost(edge, second_.length()));
+    return Outcome::finished;
 }
 
 void PairwiseBound::combine()

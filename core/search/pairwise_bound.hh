@@ -7,8 +7,8 @@
 #include "base/types.hh"
 #include "search/partial_embedding.hh"
 #include "search/path_oracle.hh"
+#include "search/second_class.hh"
 #include "search/work_budget.hh"
-#include "surface/class_enumeration.hh"
 #include "surface/cut_systems.hh"
 #include "surface/distance_field.hh"
 
@@ -38,7 +38,7 @@ public:
     Length surplus(std::span<const Length> costs);
     Index pair_count() const { return static_cast<Index>(pairs_.size()); }
     /// States expanded by enumerations of classes.
-    std::uint64_t expansion_count() const { return enumeration_.expansion_count(); }
+    std::uint64_t expansion_count() const { return second_.expansion_count(); }
 
 private:
     struct Pair {
@@ -65,15 +65,12 @@ private:
     PartialEmbedding& embedding_;
     PathOracle& oracle_;
     CutSystems cuts_;
-    ClassEnumeration enumeration_;
+    SecondClass second_;
     std::vector<Index> root_walks_;
     std::vector<Pair> pairs_;
     std::vector<Length> seconds_;  // per layout edge: its second shortest class costs at least this
     std::vector<Index> edges_;     // those in pairs
     Index next_edge_ = 0;
-    bool is_enumerating_ = false;
-    Index found_ = 0;
-    std::uint64_t expansions_left_ = 0;
     Index next_side_ = 0;  // two per pair: b beside a, a beside b
     std::vector<Addition> additions_;
     std::vector<std::uint8_t> is_matched_;  // per layout edge

@@ -43,7 +43,7 @@ public:
     Index walk(Index layout_edge) const { return walks_[layout_edge]; }
     /// The walks in the order of insertion.
     const std::vector<Index>& sequence() const { return sequence_; }
-    /// The length of all embedded paths.
+    /// What all embedded paths cost.
     Length cost() const { return cost_; }
     bool is_complete() const { return sequence_.size() == walks_.size(); }
     /// Insertions so far.

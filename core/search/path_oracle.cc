@@ -108,7 +108,7 @@ PathOracle::Answer PathOracle::find(Index layout_edge, Length limit, WorkBudget&
             begin_enumeration(layout_edge);
         } else {
             is_enumerating_ = false;
-            search_.begin(layout_edge, limit);
+            search_.begin(layout_edge, weights().length(layout_edge, limit));
         }
     }
     assert(searching_ == layout_edge);
@@ -141,7 +141,7 @@ PathOracle::Answer PathOracle::search(Index layout_edge, WorkBudget& budget)
     const std::uint64_t before = search_.expansion_count();
     const auto outcome = search_.run(budget.left());
     budget.charge(search_.expansion_count() - before);
-    const Length bound = search_.lower_bound();
+    const Length bound = weights().cost(layout_edge, search_.lower_bound());
     switch (outcome) {
         case CutSurfaceSearch::Outcome::running:
             return {Outcome::running, kNone, bound};
@@ -168,8 +168,9 @@ void PathOracle::begin_enumeration(Index layout_edge)
         keeps(layout_edge)
             ? UINT64_MAX
             : kMaxEnumeration + kMaxEnumerationPerNode * embedding_.strands().graph().node_count();
-    enumeration_->begin(cuts_->of(layout_edge), layout_edge,
-                        std::min(limit_, constraints_->limit(layout_edge)));
+    enumeration_->begin(
+        cuts_->of(layout_edge), layout_edge,
+        std::min(weights().length(layout_edge, limit_), constraints_->limit(layout_edge)));
 }
 
 /// The shortest path of a class that the edge may take.
@@ -183,28 +184,28 @@ PathOracle::Answer PathOracle::enumerate(Index layout_edge, WorkBudget& budget)
         enumeration_left_ -= expansions;
         budget.charge(enumeration_->work_count() - work_before);
         const Length frontier = enumeration_->frontier();
+        const Length bound = weights().cost(layout_edge, frontier);
         switch (outcome) {
             case ClassEnumeration::Outcome::running:
                 if (enumeration_left_ == 0) {
-                    return {Outcome::given_up, kNone, frontier};
+                    return {Outcome::given_up, kNone, bound};
                 }
                 break;
             case ClassEnumeration::Outcome::tied:
-                return {Outcome::tied, kNone, frontier};
+                return {Outcome::tied, kNone, bound};
             case ClassEnumeration::Outcome::exceeded:
                 return frontier < constraints_->limit(layout_edge)
-                           ? Answer{Outcome::exceeded, kNone, frontier}
+                           ? Answer{Outcome::exceeded, kNone, bound}
                            : Answer{Outcome::blocked, kNone, kInfiniteLength};
             case ClassEnumeration::Outcome::found:
                 if (constraints_->admit(layout_edge, enumeration_->darts())) {
-                    return {Outcome::found,
-                            embedding_.pool().add(layout_edge, enumeration_->darts()),
-                            enumeration_->cost()};
+                    const Index walk = embedding_.pool().add(layout_edge, enumeration_->darts());
+                    return {Outcome::found, walk, embedding_.pool().cost(walk)};
                 }
                 break;
         }
     }
-    return {Outcome::running, kNone, enumeration_->frontier()};
+    return {Outcome::running, kNone, weights().cost(layout_edge, enumeration_->frontier())};
 }
 
 }  // namespace layout_embedding

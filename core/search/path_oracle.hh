@@ -26,10 +26,10 @@ public:
         found,
         /// No path exists; `bound` is kInfiniteLength.
         blocked,
-        /// Every path is at least `bound` long, which is at least the limit asked for.
+        /// Every path costs at least `bound`, which is at least the limit asked for.
         exceeded,
         /// Of the edge's shorter classes none is one that it may take, and more were not looked at;
-        /// every path is at least `bound` long.
+        /// every path costs at least `bound`.
         given_up,
         /// Two shortest walks of equal length.
         tied,
@@ -47,7 +47,7 @@ public:
     /// that is kept in a class is to be asked for without a limit before others are embedded.
     void constrain(const ClassConstraints& constraints, CutSystems& cuts, DistanceFields& fields);
 
-    /// The shortest path of an edge that is not embedded, in the present state. Paths of length
+    /// The shortest path of an edge that is not embedded, in the present state. Paths that cost
     /// `limit` or more do not matter. Charges the budget for the states it expands.
     Answer find(Index layout_edge, Length limit, WorkBudget& budget);
 
@@ -63,7 +63,7 @@ public:
         Index layout_edge;
         /// Lower bound; kInfiniteLength if there is no path at all.
         Length bound;
-        /// The shortest path, of length `bound`, where it still fits; kNone where only the bound is
+        /// The shortest path, of cost `bound`, where it still fits; kNone where only the bound is
         /// known.
         Index walk;
         std::vector<Index> blockers;  // walks
@@ -86,6 +86,7 @@ private:
     Answer search(Index layout_edge, WorkBudget& budget);
     void begin_enumeration(Index layout_edge);
     Answer enumerate(Index layout_edge, WorkBudget& budget);
+    const EdgeWeights& weights() const { return embedding_.strands().weights(); }
     bool keeps(Index layout_edge) const
     {
         return constraints_ != nullptr && constraints_->keeps(layout_edge);

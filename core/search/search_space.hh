@@ -2,6 +2,7 @@
 
 #include "layout/embedding_problem.hh"
 #include "search/class_constraints.hh"
+#include "search/excluded_embeddings.hh"
 #include "search/incumbent.hh"
 #include "search/partial_embedding.hh"
 #include "search/path_oracle.hh"
@@ -20,15 +21,18 @@ namespace layout_embedding {
 struct SearchSpace {
     /// Keeps a reference to `graph`. `field_bytes`: see DistanceFields.
     SearchSpace(const EmbeddingProblem& problem, const PathGraph& graph, std::uint64_t field_bytes,
-                bool remember = true, const std::vector<ClassConstraint>& class_constraints = {})
+                bool remember = true, const std::vector<ClassConstraint>& class_constraints = {},
+                const std::vector<std::vector<std::vector<Index>>>& excluded_embeddings = {})
         : strands(problem, graph),
           fields(graph, strands.passable(), field_bytes),
           search(strands, fields),
           cuts(strands),
           constraints(cuts, graph, class_constraints),
           pool(strands),
+          excluded(cuts, pool, excluded_embeddings),
           embedding(strands, pool),
-          oracle(embedding, search, remember)
+          oracle(embedding, search, remember),
+          incumbent(excluded)
     {
         if (!constraints.empty()) {
             oracle.constrain(constraints, cuts, fields);
@@ -64,6 +68,7 @@ struct SearchSpace {
     CutSystems cuts;
     ClassConstraints constraints;
     WalkPool pool;
+    ExcludedEmbeddings excluded;
     PartialEmbedding embedding;
     PathOracle oracle;
     Incumbent incumbent;

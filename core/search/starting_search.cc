@@ -46,6 +46,9 @@ Solver::Outcome StartingSearch::run(WorkBudget& budget)
             case Stage::look_ahead:
                 outcome = look_ahead(budget);
                 break;
+            case Stage::other_routes:
+                outcome = try_other_routes(budget);
+                break;
             case Stage::local_search:
                 outcome = run_local_search(budget);
                 break;
@@ -113,8 +116,10 @@ Solver::Outcome StartingSearch::take_greedy_embedding()
     if (outcome == Incumbent::Outcome::tied) {
         return Solver::Outcome::tied;
     }
-    after_insertion();
-    return Solver::Outcome::improved;
+    const Solver::Outcome next = after_insertion();
+    return outcome == Incumbent::Outcome::accepted && next != Solver::Outcome::tied
+               ? Solver::Outcome::improved
+               : next;
 }
 
 /// Decides what comes after an insertion, greedy or with a look ahead. Nothing is embedded.
@@ -129,6 +134,9 @@ Solver::Outcome StartingSearch::after_insertion()
         begin_lookahead();
     } else if (space_.incumbent.exists()) {
         begin_local_search(first_local_search_);
+    } else if (!space_.excluded.empty()) {
+        other_routes_ = std::make_unique<OtherRoutes>(space_, root_walks_);
+        stage_ = Stage::other_routes;
     } else if (++rule_ < kRules.size() && space_.constraints.empty()) {
         greedy_ =
             std::make_unique<GreedySearch>(problem_, space_.strands, space_.search, kRules[rule_]);
@@ -211,6 +219,37 @@ Solver::Outcome StartingSearch::look_ahead(WorkBudget& budget)
     return offered == Incumbent::Outcome::accepted && outcome != Solver::Outcome::tied
                ? Solver::Outcome::improved
                : outcome;
+}
+
+/// Up to the first embedding that is not excluded.
+Solver::Outcome StartingSearch::try_other_routes(WorkBudget& budget)
+{
+    for (;;) {
+        switch (other_routes_->run(budget)) {
+            case OtherRoutes::Outcome::running:
+                return Solver::Outcome::running;
+            case OtherRoutes::Outcome::tied:
+                return Solver::Outcome::tied;
+            case OtherRoutes::Outcome::finished:
+                other_routes_.reset();
+                stage_ = Stage::finished;
+                return Solver::Outcome::advanced;
+            case OtherRoutes::Outcome::complete:
+                break;
+        }
+        switch (space_.incumbent.offer(space_.embedding)) {
+            case Incumbent::Outcome::tied:
+                return Solver::Outcome::tied;
+            case Incumbent::Outcome::rejected:
+            case Incumbent::Outcome::excluded:
+                break;
+            case Incumbent::Outcome::accepted:
+                other_routes_.reset();
+                space_.embedding.go_to({});
+                return after_insertion() == Solver::Outcome::tied ? Solver::Outcome::tied
+                                                                  : Solver::Outcome::improved;
+        }
+    }
 }
 
 void StartingSearch::begin_local_search(std::uint64_t work)

@@ -7,6 +7,7 @@
 #include "search/greedy.hh"
 #include "search/local_search.hh"
 #include "search/lookahead_insertion.hh"
+#include "search/other_routes.hh"
 #include "search/search_space.hh"
 #include "search/solver.hh"
 
@@ -14,8 +15,9 @@ namespace layout_embedding {
 
 /// The first embeddings: plain greedy insertion, insertion that looks ahead, or a heuristic where
 /// both fail, then local search on the order of insertion, which can go on later. Where classes are
-/// constrained, insertion that looks ahead alone knows of it. Also the
-/// unconstrained path of every edge, whose sum bounds every embedding.
+/// constrained, insertion that looks ahead alone knows of it; where all this leads to embeddings
+/// that are excluded, other routes are tried. Also the unconstrained path of every edge, whose sum
+/// bounds every embedding.
 class StartingSearch {
 public:
     /// Keeps references. `local_search`: units of work that local search may take; 0 for greedy
@@ -40,12 +42,13 @@ public:
     double progress() const;
 
 private:
-    enum class Stage { greedy, find_roots, look_ahead, local_search, finished };
+    enum class Stage { greedy, find_roots, look_ahead, other_routes, local_search, finished };
 
     Solver::Outcome run_greedy(WorkBudget& budget);
     Solver::Outcome find_roots(WorkBudget& budget);
     void begin_lookahead();
     Solver::Outcome look_ahead(WorkBudget& budget);
+    Solver::Outcome try_other_routes(WorkBudget& budget);
     Solver::Outcome after_insertion();
     bool gap_is_reached() const;
     Solver::Outcome run_local_search(WorkBudget& budget);
@@ -63,6 +66,7 @@ private:
     Index next_root_ = 0;
     std::unique_ptr<LookaheadInsertion> lookahead_;
     bool has_looked_ahead_ = false;
+    std::unique_ptr<OtherRoutes> other_routes_;
     std::unique_ptr<LocalSearch> local_search_;
     std::vector<Index> root_walks_;
     Length root_bound_ = 0;

@@ -11,7 +11,8 @@ namespace {
 
 // The bounding-box diagonal is about 2^54 units: a path may be 512 diagonals long before a sum
 // overflows. Every edge gets 32 random low bits, centred so that they do not lengthen paths on
-// average; 2^-23 of the diagonal is far below the resolution of the subdivision.
+// average; 2^-23 of the diagonal is far below the resolution of the subdivision. Headroom makes all
+// of it smaller.
 constexpr double kDiagonal = 0x1.0p54;
 constexpr Length kNoise = Length{1} << 32U;
 
@@ -19,17 +20,19 @@ class LengthScale {
 public:
     LengthScale(double unit, const PathGraph::Options& options)
         : unit_(unit),
+          noise_(kNoise / options.headroom),
           random_(Random::mix(options.seed) ^ Random::mix(~std::uint64_t{options.attempt}))
     {}
 
     Length operator()(double distance)
     {
         const auto rounded = static_cast<Length>(distance / unit_ + 0.5);
-        return std::max(rounded, kNoise / 2) - kNoise / 2 + random_.bits() % kNoise + 1;
+        return std::max(rounded, noise_ / 2) - noise_ / 2 + random_.bits() % noise_ + 1;
     }
 
 private:
     double unit_;
+    Length noise_;
     Random random_;
 };
 
@@ -143,7 +146,7 @@ PathGraph PathGraph::barycentric(const TriangleMesh& target, const Options& opti
 
     // However dear, no path may overflow.
     const double dearest = costs.empty() ? 1.0 : *std::max_element(costs.begin(), costs.end());
-    graph.unit_ = (high - low).norm() / kDiagonal * dearest;
+    graph.unit_ = (high - low).norm() / kDiagonal * dearest * static_cast<double>(options.headroom);
     LengthScale scaled(graph.unit_, options);
 
     graph.darts_.resize(graph.dart_offsets_.back());

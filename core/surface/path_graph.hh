@@ -45,6 +45,8 @@ public:
         /// to that; empty for 1.
         std::span<const double> vertex_costs = {};
         std::span<const double> edge_costs = {};
+        /// How much sums of lengths may be multiplied by: EdgeWeights::largest().
+        Length headroom = 1;
     };
 
     /// The barycentric subdivision: nodes are vertices, edge midpoints and face centroids

@@ -9,6 +9,7 @@ namespace layout_embedding {
 Strands::Strands(const EmbeddingProblem& problem, const PathGraph& graph)
     : graph_(&graph),
       layout_(problem.layout),
+      weights_(problem.weights),
       passable_(graph.node_count(), true),
       strands_(problem.layout->edge_count()),
       records_of_nodes_(graph.node_count(), kNone)

@@ -34,6 +34,7 @@ public:
 
     const PathGraph& graph() const { return *graph_; }
     const Layout& layout() const { return *layout_; }
+    const EdgeWeights& weights() const { return weights_; }
     /// The path-graph node of a layout vertex.
     Index landmark_node(Index layout_vertex) const { return landmark_nodes_[layout_vertex]; }
     /// False at landmarks: paths only end there.
@@ -161,6 +162,7 @@ private:
 
     const PathGraph* graph_;
     std::shared_ptr<const Layout> layout_;
+    EdgeWeights weights_;
     std::vector<Index> landmark_nodes_;
     std::vector<bool> passable_;  // per node
 

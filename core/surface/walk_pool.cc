@@ -8,16 +8,19 @@
 namespace layout_embedding {
 
 WalkPool::WalkPool(const Strands& strands)
-    : graph_(strands.graph()), layout_(strands.layout()), leaving_(layout_.vertex_count())
+    : graph_(strands.graph()),
+      layout_(strands.layout()),
+      weights_(strands.weights()),
+      leaving_(layout_.vertex_count())
 {}
 
 Index WalkPool::add(Index layout_edge, const std::vector<Index>& darts)
 {
     std::uint64_t hash = layout_edge;
-    Length cost = 0;
+    Length length = 0;
     for (const Index d : darts) {
         hash = Random::mix(hash + d + 1);
-        cost += graph_.dart(d).length;
+        length += graph_.dart(d).length;
     }
     const auto [begin, end] = ids_by_hash_.equal_range(hash);
     for (auto it = begin; it != end; ++it) {
@@ -27,7 +30,7 @@ Index WalkPool::add(Index layout_edge, const std::vector<Index>& darts)
         }
     }
     const Index id = size();
-    walks_.push_back({layout_edge, darts, cost, {}, {kNone, kNone}});
+    walks_.push_back({layout_edge, darts, weights_.cost(layout_edge, length), {}, {kNone, kNone}});
     ids_by_hash_.emplace(hash, id);
     find_crossings(id);
     find_place(id, 0);

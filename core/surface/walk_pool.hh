@@ -18,7 +18,7 @@ namespace layout_embedding {
 /// Theorem 1): what is known here decides questions for which Strands would have to be moved.
 class WalkPool {
 public:
-    /// Takes path graph, layout and landmarks from `strands`, whatever is embedded there.
+    /// Takes path graph, layout, landmarks and weights from `strands`, whatever is embedded there.
     explicit WalkPool(const Strands& strands);
 
     /// The id of a walk of a layout edge, from tail(2e) to head(2e), new or known. The walk is
@@ -28,6 +28,7 @@ public:
     Index size() const { return static_cast<Index>(walks_.size()); }
     Index layout_edge(Index walk) const { return walks_[walk].layout_edge; }
     const std::vector<Index>& darts(Index walk) const { return walks_[walk].darts; }
+    /// Its length times the edge's weight.
     Length cost(Index walk) const { return walks_[walk].cost; }
 
     /// The walks of other edges that truly cross this one (a shared stretch entered and left on
@@ -70,6 +71,7 @@ private:
 
     const PathGraph& graph_;
     const Layout& layout_;
+    const EdgeWeights& weights_;
     std::vector<Walk> walks_;
     std::unordered_multimap<std::uint64_t, Index> ids_by_hash_;      // looked up, never iterated
     std::unordered_map<Index, std::vector<Visit>> visits_of_nodes_;  // likewise

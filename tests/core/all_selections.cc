@@ -12,7 +12,11 @@ namespace layout_embedding::test {
 
 AllSelections::AllSelections(const EmbeddingProblem& problem, Length limit,
                              const SelectionRules& rules)
-    : ground_(problem, rules.graph), best_(limit), classes_(problem.layout->edge_count())
+    : ground_(problem, rules.graph),
+      weights_(problem.weights),
+      limit_(limit),
+      count_(rules.count),
+      classes_(problem.layout->edge_count())
 {
     for (Index e = 0; e < classes_.size(); ++e) {
         if (rules.walks.count(e) > 0) {
@@ -43,11 +47,12 @@ void AllSelections::enumerate(const EmbeddingProblem& problem, Length limit,
             for (const Index dart : walk->second) {
                 shortest[e] += ground_.graph.dart(dart).length;
             }
+            shortest[e] = weights_.cost(e, shortest[e]);
             classes_[e].push_back({shortest[e], walk->second});
         } else {
             ground_.search.begin(e);
             EXPECT_EQ(ground_.search.run(), CutSurfaceSearch::Outcome::found);
-            shortest[e] = ground_.search.cost();
+            shortest[e] = weights_.cost(e, ground_.search.cost());
         }
         root += shortest[e];
     }
@@ -62,10 +67,10 @@ void AllSelections::enumerate(const EmbeddingProblem& problem, Length limit,
         }
         const CutSystem cuts(ground_.graph, nodes, v);
         ClassEnumeration enumeration(ground_.strands, ground_.fields);
-        enumeration.begin(cuts, e, shortest[e] + (limit - root));
+        enumeration.begin(cuts, e, weights_.length(e, shortest[e] + (limit - root)));
         while (enumeration.run() == ClassEnumeration::Outcome::found) {
             if (!rules.admits || rules.admits(e, enumeration.darts())) {
-                classes_[e].push_back({enumeration.cost(), enumeration.darts()});
+                classes_[e].push_back({weights_.cost(e, enumeration.cost()), enumeration.darts()});
             }
         }
     }
@@ -107,11 +112,14 @@ bool AllSelections::fits()
 
 void AllSelections::visit(Index edge, Length cost)
 {
-    if (cost + rest_[edge] >= best_) {
+    if (cost + rest_[edge] >= threshold()) {
         return;
     }
     if (edge == classes_.size()) {
-        best_ = fits() ? cost : best_;
+        if (fits()) {
+            costs_.insert(std::upper_bound(costs_.begin(), costs_.end(), cost), cost);
+            costs_.resize(std::min(costs_.size(), count_));
+        }
         return;
     }
     for (const Class& candidate : classes_[edge]) {

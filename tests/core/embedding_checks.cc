@@ -41,4 +41,14 @@ Length total_length(const PathGraph& graph, const WeakEmbedding& weak)
     return sum;
 }
 
+Length total_cost(const EmbeddingProblem& problem, const PathGraph& graph,
+                  const WeakEmbedding& weak)
+{
+    Length sum = 0;
+    for (Index e = 0; e < weak.paths.size(); ++e) {
+        sum += problem.weights.of(e) * total_length(graph, {{weak.paths[e]}});
+    }
+    return sum;
+}
+
 }  // namespace layout_embedding::test

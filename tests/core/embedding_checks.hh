@@ -17,5 +17,8 @@ void expect_valid(const EmbeddingProblem& problem, const PathGraph& graph,
 
 /// The summed length of all paths.
 Length total_length(const PathGraph& graph, const WeakEmbedding& weak);
+/// With the problem's weights.
+Length total_cost(const EmbeddingProblem& problem, const PathGraph& graph,
+                  const WeakEmbedding& weak);
 
 }  // namespace layout_embedding::test

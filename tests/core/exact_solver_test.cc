@@ -41,7 +41,7 @@ struct Run {
             if (solver.incumbent_cost() < cost) {
                 cost = solver.incumbent_cost();
                 test::expect_strands(problem, graph, solver.incumbent());
-                EXPECT_EQ(test::total_length(graph, solver.incumbent()), cost);
+                EXPECT_EQ(test::total_cost(problem, graph, solver.incumbent()), cost);
             }
             if (outcome != Solver::Outcome::running) {
                 happened.emplace_back(outcome, work);
@@ -249,6 +249,79 @@ TEST(ExactSolver, finds_the_best_of_all_selections_that_comply_with_constraints)
     EXPECT_GT(others_follow, 3);
 }
 
+TEST(ExactSolver, finds_the_next_best_embeddings_in_order)
+{
+    constexpr std::size_t kCount = 4;
+    int several_edges = 0;
+    int chains = 0;
+    std::vector<Instance> instances = test::tiny_instances(214, 18);
+    for (Instance& instance : instances_with_holes(215, 3)) {
+        instances.push_back(std::move(instance));
+    }
+    for (const Instance& instance : instances) {
+        SCOPED_TRACE(instance.name);
+        ExactSolverOptions options;
+        std::vector<Length> costs;
+        while (costs.size() < kCount) {
+            const ExactRun run(instance.problem, options, 5000, 400'000);
+            if (!run.has_finished) {
+                break;  // on such coarse targets the next one can be very long
+            }
+            ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+            costs.push_back(run.solver.incumbent_cost());
+            options.excluded.emplace_back();
+            for (const WeakPath& path : run.solver.incumbent().paths) {
+                options.excluded.back().push_back(path.darts);
+            }
+        }
+        if (costs.empty()) {
+            continue;
+        }
+        const test::AllSelections all(instance.problem, costs.back() + 1, {.count = costs.size()});
+        EXPECT_EQ(costs, all.costs());
+        chains += costs.size() == kCount ? 1 : 0;
+        for (std::size_t i = 1; i < options.excluded.size(); ++i) {
+            int different = 0;
+            for (std::size_t e = 0; e < options.excluded[i].size(); ++e) {
+                different += options.excluded[i][e] != options.excluded[0][e] ? 1 : 0;
+            }
+            several_edges += different > 1 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(chains, 10);
+    EXPECT_GT(several_edges, 10);
+}
+
+TEST(ExactSolver, finds_the_best_of_all_selections_with_weighted_edges)
+{
+    Random random(216);
+    int other = 0;
+    for (Instance& instance : test::tiny_instances(217, 60)) {
+        SCOPED_TRACE(instance.name);
+        std::vector<double> weights;
+        for (Index e = 0; e < instance.problem.layout->edge_count(); ++e) {
+            weights.push_back(std::exp2(4 * random.unit() - 2));
+        }
+        EmbeddingProblem weighted = instance.problem;
+        weighted.weights = EdgeWeights(weights);
+        const PathGraph::Options graph{.headroom = weighted.weights.largest()};
+        const ExactRun run(weighted, {}, UINT64_MAX, UINT64_MAX, graph);
+        ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+        const test::AllSelections all(weighted, run.solver.incumbent_cost() + 1, {.graph = graph});
+        EXPECT_EQ(run.solver.incumbent_cost(), all.best());
+        const SequenceRun sequences(weighted, best_sequence(), UINT64_MAX, UINT64_MAX, graph);
+        EXPECT_GE(sequences.solver.incumbent_cost(), run.solver.incumbent_cost());
+        EXPECT_EQ(sequences.solver.lower_bound(), sequences.solver.incumbent_cost());
+
+        // The embedding that is best without weights costs more in them, or is the same.
+        const ExactRun plain(instance.problem, {}, UINT64_MAX, UINT64_MAX, graph);
+        const Length cost = test::total_cost(weighted, run.graph, plain.solver.incumbent());
+        EXPECT_LE(run.solver.incumbent_cost(), cost);
+        other += run.solver.incumbent_cost() < cost ? 1 : 0;
+    }
+    EXPECT_GT(other, 5);
+}
+
 TEST(ExactSolver, says_so_where_no_embedding_complies_with_constraints)
 {
     const Instance instance = test::tiny_instances(211, 1)[0];
@@ -303,7 +376,7 @@ TEST(ExactSolver, stops_at_the_gap_asked_for)
     for (const Instance& instance : small_instances(205, 14)) {
         SCOPED_TRACE(instance.name);
         const ExactRun whole(instance.problem, {});
-        const ExactRun rough(instance.problem, {.gap = 0.1, .constraints = {}});
+        const ExactRun rough(instance.problem, {.gap = 0.1, .constraints = {}, .excluded = {}});
         const Length cost = rough.solver.incumbent_cost();
         EXPECT_GE(rough.solver.lower_bound(), cost - cost / 10);
         EXPECT_LE(rough.solver.lower_bound(), whole.solver.incumbent_cost());

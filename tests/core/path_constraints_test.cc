@@ -1,6 +1,9 @@
 #include "apps/path_constraints.hh"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "apps/embed_job.hh"
 #include "embedding/check_input.hh"
@@ -54,6 +57,89 @@ TEST(PathConstraints, an_avoided_route_costs_more_and_kept_ones_cost_the_same)
         EXPECT_EQ(kept.result().exact_cost, other.result().exact_cost);
         all.push_back({0, false, routes(other)[0]});
         EXPECT_EQ(solved(problem, all).result().status, EmbedStatus::infeasible);
+    }
+}
+
+TEST(ExcludedEmbeddings, the_next_best_is_found_and_damaged_ones_are_refused)
+{
+    EmbedOptions options;
+    options.gap = 0;
+    options.look_for_doubts = false;
+    const auto solve = [&](const EmbeddingProblem& problem) {
+        EmbedJob job(problem, options);
+        while (job.step()) {
+        }
+        return job;
+    };
+    for (const auto& [name, problem] : test::random_instances(42, 3)) {
+        SCOPED_TRACE(name);
+        options.excluded.clear();
+        Length cost = 0;
+        std::vector<EmbeddingPaths> found;
+        for (int i = 0; i < 3; ++i) {
+            const EmbedJob job = solve(problem);
+            expect_optimal(job);
+            EXPECT_GT(job.result().exact_cost, cost);
+            cost = job.result().exact_cost;
+            EXPECT_EQ(std::count(found.begin(), found.end(), routes(job)), 0);
+            found.push_back(routes(job));
+            // Those of another seed are known as well: classes count.
+            options.excluded.push_back(routes(job));
+            options.seed = 1 + i % 2;
+        }
+        options.seed = 1;
+        options.excluded = {{found[0].begin(), found[0].end() - 1}};
+        EXPECT_EQ(solve(problem).error().code, ErrorCode::invalidPath);
+        options.excluded = {found[0]};
+        options.excluded[0][1].pop_back();
+        EXPECT_EQ(solve(problem).error().code, ErrorCode::invalidPath);
+        options.excluded = {found[0]};
+        options.algorithm = Algorithm::branch_and_bound;
+        EXPECT_EQ(solve(problem).error().code, ErrorCode::invalidOption);
+        options.algorithm = Algorithm::exact;
+    }
+}
+
+TEST(EdgeWeights, cost_is_the_weighted_length_whatever_the_algorithm)
+{
+    const EmbeddingProblem problem = test::random_instances(43, 1)[0].problem;
+    const Index edges = problem.layout->edge_count();
+    EmbedOptions options;
+    options.gap = 0;
+    options.edge_weights.assign(edges, 1.0);
+    options.edge_weights[0] = 0.001;
+    options.edge_weights[1] = 0.25;
+    options.edge_weights[2] = 1000;
+    for (const Algorithm algorithm :
+         {Algorithm::greedy, Algorithm::schreiner, Algorithm::branch_and_bound, Algorithm::exact}) {
+        options.algorithm = algorithm;
+        EmbedJob job(problem, options);
+        while (job.step()) {
+        }
+        ASSERT_TRUE(job.result().refined) << job.error().message;
+        test::expect_valid(problem, *job.graph(), job.result().weak, *job.result().refined);
+        double sum = 0;
+        for (Index e = 0; e < edges; ++e) {
+            const double length = job.graph()->to_units(
+                test::total_length(*job.graph(), {{job.result().weak.paths[e]}}));
+            // Rounded to 1024ths of the largest, one at least.
+            const double weight =
+                std::max(1.0, std::round(options.edge_weights[e] * 1.024)) / 1.024;
+            EXPECT_NEAR(job.result().edge_costs[e], weight * length, 1e-9 * weight * length);
+            sum += job.result().edge_costs[e];
+        }
+        EXPECT_NEAR(job.result().cost, sum, 1e-9 * sum);
+        EXPECT_LE(job.result().exact_lower_bound, job.result().exact_cost);
+    }
+    for (const std::vector<double>& wrong :
+         {std::vector<double>(edges - 1, 1.0), std::vector<double>(edges, 0.0),
+          std::vector<double>(edges, 1001.0),
+          std::vector<double>(edges, std::numeric_limits<double>::quiet_NaN())}) {
+        options.edge_weights = wrong;
+        EmbedJob job(problem, options);
+        while (job.step()) {
+        }
+        EXPECT_EQ(job.error().code, ErrorCode::invalidOption);
     }
 }
 
