@@ -355,6 +355,20 @@ TEST(ExactSolver, is_never_worse_than_the_best_insertion_sequence_nor_bounds_wha
     EXPECT_GT(equal, 9 * count / 10);
 }
 
+TEST(ExactSolver, is_better_than_every_insertion_sequence_where_paths_block_each_other_in_a_circle)
+{
+    const auto& [name, problem] = test::smallest_counterexample();
+    const ExactRun exact(problem, {});
+    const SequenceRun sequences(problem, best_sequence());
+    ASSERT_EQ(exact.solver.lower_bound(), exact.solver.incumbent_cost());
+    ASSERT_EQ(sequences.solver.lower_bound(), sequences.solver.incumbent_cost());
+    EXPECT_EQ(sequences.solver.bound_scope(), BoundScope::insertion_sequences);
+    const test::AllSelections all(problem, sequences.solver.incumbent_cost());
+    EXPECT_EQ(exact.solver.incumbent_cost(), all.best());
+    EXPECT_GT(static_cast<double>(sequences.solver.incumbent_cost()),
+              1.005 * static_cast<double>(all.best()));
+}
+
 TEST(ExactSolver, slices_change_neither_what_happens_nor_when)
 {
     for (const Instance& instance : small_instances(204, 10)) {

@@ -114,6 +114,29 @@ std::vector<Instance> tiny_instances(std::uint64_t seed, int count)
     return instances;
 }
 
+Instance smallest_counterexample()
+{
+    const PolygonMesh layout = zoo::polygon_mesh(std::vector<Vec3>(6, Vec3::Zero()),
+                                                 {{4, 1, 0, 2, 5, 3}, {0, 1, 4, 3}, {2, 0, 3, 5}});
+    const PolygonMesh target = zoo::polygon_mesh(
+        {{0, 1, 0},
+         {-0.484, 0.865, 0.131},
+         {-0.082, 0.913, -0.4},
+         {-0.865, 0.131, -0.484},
+         {-0.703, 0.711, 0},
+         {-0.082, -0.913, -0.4},
+         {-0.602, -0.372, 0.707},
+         {-0.564, -0.513, 0.647},
+         {-0.602, -0.372, -0.707},
+         {-0.783, -0.346, -0.516},
+         {-0.758, -0.468, -0.454},
+         {-0.564, -0.513, -0.647}},
+        {{0, 1, 8}, {1, 0, 2},  {1, 2, 8},  {8, 4, 0},  {0, 4, 5},  {8, 5, 4},   {0, 6, 2},
+         {0, 7, 6}, {6, 7, 2},  {0, 5, 7},  {7, 5, 2},  {3, 8, 11}, {11, 10, 9}, {8, 9, 10},
+         {8, 3, 9}, {11, 9, 3}, {8, 10, 5}, {5, 11, 2}, {2, 11, 8}, {10, 11, 5}});
+    return {"smallest counterexample", problem_of(layout, target, {1, 4, 10, 3, 5, 0})};
+}
+
 std::vector<EmbeddedInstance> embedded_instances(std::uint64_t seed)
 {
     Collector collector(seed);

@@ -39,6 +39,10 @@ std::vector<Instance> random_instances(std::uint64_t seed, int count);
 /// Likewise with layouts of 6 to 9 edges, so small that a test can try every insertion sequence.
 std::vector<Instance> tiny_instances(std::uint64_t seed, int count);
 
+/// An instance whose best embedding no insertion sequence reaches (paper, Sec. 6), as small as
+/// tests/experiments/find_counterexamples made one: seven layout edges in twelve target vertices.
+Instance smallest_counterexample();
+
 /// A problem and an embedding of it, not a short one.
 struct EmbeddedInstance {
     std::string name;

@@ -69,6 +69,95 @@ describe("embed", () => {
     );
 
     test(
+        "finds_the_next_best_embeddings_in_order_of_cost",
+        withInputs(async (cwd) => {
+            const embed = async (output: string, ...args: string[]) => {
+                const options = ["--gap", "0", "--output", output, "--json"];
+                const finished = await run(["embed", ...args, ...options], { cwd });
+                expect(finished).toMatchObject({ exitCode: 0, stderr: "" });
+                const check = await run(["check", output, "layout.obj", "target.obj"], { cwd });
+                expect(check.exitCode).toBe(0);
+                const document = JSON.parse(finished.stdout) as EmbeddingDocument;
+                expect(document.gap).toBe(0);
+                return document;
+            };
+            const files = ["layout.obj", "target.obj"];
+            const best = await embed("best", ...inputs);
+            const second = await embed("second", ...files, "--exclude", "best");
+            const third = await embed(
+                "third",
+                ...files,
+                "--exclude",
+                "best",
+                "--exclude",
+                "second",
+            );
+            expect(second.landmarks).toEqual(best.landmarks);
+            expect(second.cost).toBeGreaterThan(best.cost!);
+            expect(third.cost).toBeGreaterThan(second.cost!);
+            const paths = ({ edges }: EmbeddingDocument) => edges.map(({ weakPath }) => weakPath);
+            expect(third.excluded).toEqual([paths(best), paths(second)]);
+            expect(paths(third)).not.toEqual(paths(best));
+            const refused = await run(
+                ["embed", ...files, "--exclude", "best", "--algorithm", "greedy", "--json"],
+                { cwd },
+            );
+            expect(refused.exitCode).toBe(2);
+            expect(errorOf(refused.stdout).code).toBe("invalidOption");
+            const missing = await run(["embed", ...inputs, "--exclude", "none", "--json"], { cwd });
+            expect(missing.exitCode).toBe(4);
+            expect(errorOf(missing.stdout).code).toBe("damagedOutput");
+        }),
+    );
+
+    test(
+        "edges_that_count_more_go_straight",
+        withInputs(async (cwd) => {
+            const embed = async (output: string, weights: number[]) => {
+                writeFileSync(path.join(cwd, "weights.txt"), weights.join("\n"));
+                const args = [...inputs, "--gap", "0", "--edge-weights", "weights.txt"];
+                const finished = await run(["embed", ...args, "--output", output, "--json"], {
+                    cwd,
+                });
+                expect(finished).toMatchObject({ exitCode: 0, stderr: "" });
+                const check = await run(["check", output, "layout.obj", "target.obj"], { cwd });
+                expect(check).toMatchObject({ exitCode: 0 });
+                return JSON.parse(finished.stdout) as EmbeddingDocument;
+            };
+            const plain = await embed("plain", Array<number>(12).fill(1));
+            // The longest path is dear: it may only become shorter.
+            const longest = plain.edges.reduce((a, b) => (b.cost > a.cost ? b : a)).id;
+            const dear = await embed(
+                "dear",
+                plain.edges.map(({ id }) => (id === longest ? 16 : 1)),
+            );
+            expect(dear.edges[longest]!.cost / 16).toBeLessThanOrEqual(
+                plain.edges[longest]!.cost * (1 + 1e-6),
+            );
+            expect(dear.metric.edgeWeights).toHaveLength(12);
+            // What the document says of weights counts when its cost is checked.
+            const file = path.join(cwd, "dear/embedding.json");
+            const document = readJson<EmbeddingDocument>(file);
+            document.metric.edgeWeights![longest] = 15;
+            writeFileSync(file, JSON.stringify(document));
+            const tampered = await run(["check", "dear", "layout.obj", "target.obj", "--json"], {
+                cwd,
+            });
+            expect(tampered.exitCode).toBe(4);
+            expect(tampered.stdout).toContain("costWrong");
+            for (const wrong of ["1 1 1", Array(12).fill("0").join(" ")]) {
+                writeFileSync(path.join(cwd, "wrong.txt"), wrong);
+                const refused = await run(
+                    ["embed", ...inputs, "--edge-weights", "wrong.txt", "--json"],
+                    { cwd },
+                );
+                expect(refused.exitCode).toBe(2);
+                expect(errorOf(refused.stdout).code).toBe("invalidOption");
+            }
+        }),
+    );
+
+    test(
         "in_another_metric_paths_follow_sharp_edges_and_stay_away_from_where_length_is_dear",
         withInputs(async (cwd) => {
             const target = creased(3);

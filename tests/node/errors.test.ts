@@ -83,6 +83,8 @@ test.each([
     [{ vertexCosts: [1, 1] }, /^2 vertex costs are given for the \d+ vertices/],
     [{ vertexCosts: ball.positions.map(() => 0) }, /vertexCosts/],
     [{ featureDiscount: 1 }, /featureDiscount/],
+    [{ edgeWeights: [1, 1] }, /^2 weights are given for the 12 edges/],
+    [{ edgeWeights: Array<number>(12).fill(NaN) }, /edgeWeights/],
 ])("a_metric_that_makes_no_sense_is_refused: %#", async (metric, message) => {
     const target = { positions: ball.positions, corners: ball.faces.flat() };
     const layout = { positions: octahedron.positions, corners: octahedron.faces.flat() };

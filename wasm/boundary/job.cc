@@ -80,18 +80,20 @@ std::uint32_t with_refined(std::uint32_t handle, Body body)
 /// together. `vertex_costs` and `feature_discount` as in PathMetric, the former with 0 or as many
 /// numbers as target vertices; `boundary_is_followed` as in EmbedOptions. `constraint_count`
 /// constraints on paths: the layout edge, 1 to keep or 0 to avoid, and a path as
-/// boundary_job_weak_points() gives them. Returns its handle.
+/// boundary_job_weak_points() gives them. `edge_weights`: 0 or as many as layout edges.
+/// `excluded_count` embeddings that are not to be found: how many paths each has, and all these
+/// paths. Returns its handle.
 BOUNDARY_EXPORT(boundary_job_create)
-std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
-                                  const Index* landmarks, std::size_t landmark_count,
-                                  std::uint32_t algorithm, double gap, std::uint64_t seed,
-                                  double time_limit, std::uint64_t work_limit, double memory_limit,
-                                  std::uint32_t shape, std::uint32_t look_for_doubts,
-                                  std::uint32_t boundary_is_followed, const double* vertex_costs,
-                                  std::size_t vertex_cost_count, double feature_discount,
-                                  const Index* constrained_edges, const std::uint32_t* are_kept,
-                                  const WeakPoint* path_points, const Index* path_offsets,
-                                  std::size_t constraint_count)
+std::uint32_t boundary_job_create(
+    std::uint32_t layout, std::uint32_t target, const Index* landmarks, std::size_t landmark_count,
+    std::uint32_t algorithm, double gap, std::uint64_t seed, double time_limit,
+    std::uint64_t work_limit, double memory_limit, std::uint32_t shape,
+    std::uint32_t look_for_doubts, std::uint32_t boundary_is_followed, const double* vertex_costs,
+    std::size_t vertex_cost_count, double feature_discount, const Index* constrained_edges,
+    const std::uint32_t* are_kept, const WeakPoint* path_points, const Index* path_offsets,
+    std::size_t constraint_count, const double* edge_weights, std::size_t edge_weight_count,
+    const std::uint32_t* excluded_sizes, const WeakPoint* excluded_points,
+    const Index* excluded_offsets, std::size_t excluded_count)
 {
     return guarded(0U, [&] {
         auto problem = make_problem(handles<LayoutObject>().get(layout).layout,
@@ -120,6 +122,12 @@ std::uint32_t boundary_job_create(std::uint32_t layout, std::uint32_t target,
         for (std::size_t i = 0; i < constraint_count; ++i) {
             options.constraints.push_back(
                 {constrained_edges[i], are_kept[i] != 0, std::move(paths[i])});
+        }
+        options.edge_weights.assign(edge_weights, edge_weights + edge_weight_count);
+        const Index* offsets = excluded_offsets;
+        for (std::size_t i = 0; i < excluded_count; ++i) {
+            options.excluded.push_back(unflattened(excluded_points, offsets, excluded_sizes[i]));
+            offsets += excluded_sizes[i];
         }
         return handles<JobObject>().add(
             std::make_unique<JobObject>(JobObject{EmbedJob(std::move(*problem), std::move(options)),

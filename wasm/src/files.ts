@@ -78,9 +78,13 @@ export interface EmbeddingDocument {
         vertexCosts: number[] | null;
         /** From 0 to 0.95. */
         featureDiscount: number;
+        /** Per layout edge. */
+        edgeWeights: number[] | null;
     };
     /** What was asked of single paths. */
     constraints: PathConstraint[];
+    /** Embeddings that were not to be found, as a path per layout edge each. */
+    excluded: WeakPoint[][][];
     /** Layout, target and landmarks. */
     inputs: InputRecord[];
     /** What was repaired or deserves attention. */
@@ -197,13 +201,14 @@ export function embeddingDocument(exportable: Exportable): EmbeddingDocument {
             memoryLimit: finite(options.memoryLimit),
         },
         metric: {
-            vertexCosts:
-                options.metric.vertexCosts.length > 0
-                    ? Array.from(options.metric.vertexCosts)
-                    : null,
+            vertexCosts: listOrNull(options.metric.vertexCosts),
             featureDiscount: options.metric.featureDiscount,
+            edgeWeights: listOrNull(options.metric.edgeWeights),
         },
         constraints: [...options.constraints],
+        excluded: options.excluded.map((embedding) =>
+            embedding.map(({ weakPath }) => weakPath.map((point) => [...point] as WeakPoint)),
+        ),
         inputs: exportable.inputs,
         notes: exportable.notes,
         doubts: result.doubts,
@@ -235,6 +240,10 @@ function refinedMapDocument(refined: RefinedMesh): RefinedMapDocument {
         })),
         triangleFaces: Array.from(refined.triangleFaces),
     };
+}
+
+function listOrNull(values: Float64Array): number[] | null {
+    return values.length > 0 ? Array.from(values) : null;
 }
 
 function finite(value: number): number | null {

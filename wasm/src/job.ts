@@ -10,6 +10,7 @@ import type {
     BoundaryEdges,
     BoundScope,
     EmbeddedEdge,
+    EmbeddingPaths,
     EmbedEvent,
     EmbedEventKind,
     EmbedPhase,
@@ -61,8 +62,9 @@ export interface JobOptions {
     memoryLimit: number;
     seed: number;
     boundaryEdges: BoundaryEdges;
-    metric: { vertexCosts: Float64Array; featureDiscount: number };
+    metric: { vertexCosts: Float64Array; featureDiscount: number; edgeWeights: Float64Array };
     constraints: readonly PathConstraint[];
+    excluded: readonly EmbeddingPaths[];
     doubts: boolean;
 }
 
@@ -80,8 +82,10 @@ export function jobOptions(options: SolveOptions): JobOptions {
         metric: {
             vertexCosts: Float64Array.from(options.metric?.vertexCosts ?? []),
             featureDiscount: options.metric?.featureDiscount ?? 0,
+            edgeWeights: Float64Array.from(options.metric?.edgeWeights ?? []),
         },
         constraints: options.constraints ?? [],
+        excluded: options.excluded ?? [],
         doubts: options.doubts ?? true,
     };
     const refuse = (name: string, value: unknown, wanted: string) =>
@@ -112,10 +116,12 @@ export function jobOptions(options: SolveOptions): JobOptions {
     if (!Number.isSafeInteger(checked.seed) || checked.seed < 0) {
         throw refuse("seed", checked.seed, "an integer from 0 to 2^53 - 1");
     }
-    const { vertexCosts, featureDiscount } = checked.metric;
-    const wrong = vertexCosts.find((cost) => !(cost >= 0.001 && cost <= 1000));
-    if (wrong !== undefined) {
-        throw refuse("metric.vertexCosts", wrong, "a list of numbers from 0.001 to 1000");
+    const { featureDiscount } = checked.metric;
+    for (const name of ["vertexCosts", "edgeWeights"] as const) {
+        const wrong = checked.metric[name].find((factor) => !(factor >= 0.001 && factor <= 1000));
+        if (wrong !== undefined) {
+            throw refuse(`metric.${name}`, wrong, "a list of numbers from 0.001 to 1000");
+        }
     }
     if (!(featureDiscount >= 0 && featureDiscount <= 0.95)) {
         throw refuse("metric.featureDiscount", featureDiscount, "a number from 0 to 0.95");
@@ -134,6 +140,9 @@ export function jobOptions(options: SolveOptions): JobOptions {
     if (checked.constraints.length > 0 && checked.algorithm !== "exact") {
         throw refuse("algorithm", checked.algorithm, "exact where paths are to be kept or avoided");
     }
+    if (checked.excluded.length > 0 && checked.algorithm !== "exact") {
+        throw refuse("algorithm", checked.algorithm, "exact where embeddings are excluded");
+    }
     return checked;
 }
 
@@ -145,16 +154,22 @@ export function createJob(
     landmarks: Uint32Array,
     options: JobOptions,
 ): Handle {
-    const { constraints, metric } = options;
+    const { constraints, excluded, metric } = options;
+    const refuse = (edge: number) =>
+        new LayoutError(
+            "invalidPath",
+            `the path given for layout edge ${String(edge)} has a point without 1, 2 or 3 target ` +
+                "vertices; take the weak path of an earlier embedding.",
+            { edge },
+        );
     const paths = flattenedWeakPaths(
         constraints.map(({ path }) => path),
-        (place) =>
-            new LayoutError(
-                "invalidPath",
-                `the path given for layout edge ${String(constraints[place]?.edge)} has a point ` +
-                    "without 1, 2 or 3 target vertices; take the weak path of an earlier embedding.",
-                { edge: constraints[place]?.edge ?? 0 },
-            ),
+        (place) => refuse(constraints[place]?.edge ?? 0),
+    );
+    const edges = excluded.flatMap((embedding) => embedding.map((_, edge) => edge));
+    const excludedPaths = flattenedWeakPaths(
+        excluded.flatMap((embedding) => embedding.map(({ weakPath }) => weakPath)),
+        (place) => refuse(edges[place] ?? 0),
     );
     return core.withCopies((copy) =>
         core.call(
@@ -180,6 +195,12 @@ export function createJob(
             copy(paths.items),
             copy(paths.offsets),
             constraints.length,
+            copy(metric.edgeWeights),
+            metric.edgeWeights.length,
+            copy(Uint32Array.from(excluded, ({ length }) => length)),
+            copy(excludedPaths.items),
+            copy(excludedPaths.offsets),
+            excluded.length,
         ),
     );
 }

@@ -22,6 +22,10 @@ export interface EmbedCommand {
     repair: boolean;
     /** A file with what length costs at the target's vertices. */
     vertexCosts: string | null;
+    /** A file with how much the lengths of the layout edges' paths count. */
+    edgeWeights: string | null;
+    /** Folders with earlier outputs that are not to be found again. */
+    excluded: string[];
     /** Which layout edges are to keep their routes, or to take others, than in an earlier output. */
     previous: { folder: string; keep: number[]; avoid: number[] } | null;
     output: string | null;
@@ -131,6 +135,8 @@ const embedOptions = {
     ...commonOptions,
     ...solveOptions,
     "vertex-costs": { type: "string" },
+    "edge-weights": { type: "string" },
+    exclude: { type: "string", multiple: true },
     previous: { type: "string" },
     keep: { type: "string", multiple: true },
     avoid: { type: "string", multiple: true },
@@ -281,6 +287,8 @@ function embedCommand(
         landmarks: values.landmarks ?? null,
         repair: values.repair === true,
         vertexCosts: values["vertex-costs"] ?? null,
+        edgeWeights: values["edge-weights"] ?? null,
+        excluded: values.exclude ?? [],
         previous: previous(values),
         output: values.output ?? null,
         quads,

@@ -44,10 +44,18 @@ export function checkNumbers(
             refuse("lengthWrong", `${name} says it is ${String(edge.length)} long, and is not.`);
         }
     }
+    const { vertexCosts, edgeWeights } = document.metric;
     const price = pricing(target, document.metric);
-    const cost = document.edges.reduce((sum, { weakPath }) => sum + price(weakPath), 0);
-    const steps = document.edges.reduce((sum, edge) => sum + edge.weakPath.length, 0);
-    const dearest = Math.max(1, ...(document.metric.vertexCosts ?? []));
+    const weight = weighing(edgeWeights);
+    const cost = document.edges.reduce(
+        (sum, { id, weakPath }) => sum + weight(id) * price(weakPath),
+        0,
+    );
+    const steps = document.edges.reduce(
+        (sum, { id, weakPath }) => sum + weight(id) * weakPath.length,
+        0,
+    );
+    const dearest = Math.max(1, ...(vertexCosts ?? []));
     const tolerance = steps * perturbation * dearest * diagonal(target.positions) + rounding * cost;
     if (document.cost === null || !(Math.abs(document.cost - cost) <= tolerance)) {
         refuse("costWrong", `the weak paths add up to ${String(cost)}, not to the cost.`);
@@ -78,6 +86,15 @@ function diagonal(positions: Float64Array): number {
         high[i % 3] = Math.max(high[i % 3] ?? -Infinity, coordinate);
     });
     return Math.hypot(...high.map((coordinate, axis) => coordinate - (low[axis] ?? 0)));
+}
+
+/** Weights as the core rounds them, to parts of the largest (core/layout/edge_weights.hh). */
+function weighing(weights: number[] | null): (edge: number) => number {
+    if (weights === null) {
+        return () => 1;
+    }
+    const part = Math.max(...weights) / 1024;
+    return (edge) => Math.max(1, Math.round((weights[edge] ?? NaN) / part)) * part;
 }
 
 /**

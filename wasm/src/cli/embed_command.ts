@@ -4,6 +4,7 @@ import { jsonBytes, type EmbeddingDocument } from "../files.js";
 import { Session } from "../session.js";
 import type {
     EmbedResult,
+    LayoutInfo,
     PathConstraint,
     PathMetric,
     QuadMesh,
@@ -12,7 +13,7 @@ import type {
     TargetInfo,
 } from "../types.js";
 import type { EmbedCommand } from "./arguments.js";
-import { readInput, readReference, readVertexCosts } from "./input_files.js";
+import { readInput, readFactors, readReference } from "./input_files.js";
 import { exitCodes, type Outcome } from "./outcome.js";
 import { OutputFolder } from "./output_folder.js";
 import { ProgressLine } from "./progress.js";
@@ -30,10 +31,12 @@ export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
     const session = await Session.create();
     try {
         const previous = command.previous && (await readDocument(command.previous.folder));
-        const target = await load(session, command, previous);
+        const excluded = await Promise.all(command.excluded.map(readDocument));
+        const loaded = await load(session, command, previous ?? excluded[0] ?? null);
         const asked = {
             constraints: constraintsOf(command, previous),
-            metric: await metricOf(command, target),
+            excluded: excluded.map(({ edges }) => edges),
+            metric: await metricOf(command, loaded),
         };
         const result = await solve(session, command, asked, interrupt.signal);
         return await finish(session, command, output, result, interrupt.signal.aborted);
@@ -45,30 +48,37 @@ export async function runEmbed(command: EmbedCommand): Promise<Outcome> {
     }
 }
 
+interface Loaded {
+    layout: LayoutInfo;
+    target: TargetInfo;
+}
+
 async function load(
     session: Session,
     command: EmbedCommand,
     previous: CheckedDocument | null,
-): Promise<TargetInfo> {
+): Promise<Loaded> {
     const reference = command.target === "" ? await readReference(command.layout) : null;
     const layout = await readInput("the layout", reference?.layout ?? command.layout);
     const target = await readInput("the target", reference?.target ?? command.target);
     const file =
         command.landmarks === null ? null : await readInput("the landmark file", command.landmarks);
     const options = { repair: command.repair };
-    const loaded = await session.loadLayout(layout, options);
-    const loadedTarget = await session.loadTarget(target, {
-        ...options,
-        attributes: command.attributes,
-    });
-    const notes = [...loaded.notes, ...loadedTarget.notes];
+    const loaded = {
+        layout: await session.loadLayout(layout, options),
+        target: await session.loadTarget(target, {
+            ...options,
+            attributes: command.attributes,
+        }),
+    };
+    const notes = [...loaded.layout.notes, ...loaded.target.notes];
     if (file === null && previous !== null) {
         await session.setLandmarks(previous.landmarks, { numbering: "loaded" });
         printNotes(command, notes);
-        return loadedTarget;
+        return loaded;
     }
-    const landmarks =
-        file ?? reference?.landmarks(loaded.vertexMap?.length ?? loaded.vertexCount) ?? null;
+    const { vertexMap, vertexCount } = loaded.layout;
+    const landmarks = file ?? reference?.landmarks(vertexMap?.length ?? vertexCount) ?? null;
     notes.push(
         ...(landmarks === null
             ? await session.landmarksByProximity()
@@ -76,18 +86,34 @@ async function load(
         ).notes,
     );
     printNotes(command, notes);
-    return loadedTarget;
+    return loaded;
+}
+
+async function metricOf(
+    { solve, vertexCosts, edgeWeights }: EmbedCommand,
+    { layout, target }: Loaded,
+): Promise<PathMetric> {
+    return {
+        ...solve.metric,
+        ...(vertexCosts === null ? {} : { vertexCosts: await costsOf(vertexCosts, target) }),
+        ...(edgeWeights === null
+            ? {}
+            : {
+                  edgeWeights: await readFactors(
+                      "edgeWeights",
+                      edgeWeights,
+                      layout.edges.length / 2,
+                  ),
+              }),
+    };
 }
 
 /** The file's costs are those of its vertices before a repair. */
-async function metricOf(
-    { solve, vertexCosts: file }: EmbedCommand,
+async function costsOf(
+    file: string,
     { vertexCount, vertexMap }: TargetInfo,
-): Promise<PathMetric> {
-    if (file === null) {
-        return solve.metric ?? {};
-    }
-    const costs = await readVertexCosts(file, vertexMap?.length ?? vertexCount);
+): Promise<Float64Array> {
+    const costs = await readFactors("vertexCosts", file, vertexMap?.length ?? vertexCount);
     const vertexCosts = new Float64Array(vertexCount);
     for (const [i, cost] of costs.entries()) {
         const vertex = vertexMap === null ? i : (vertexMap[i] ?? -1);
@@ -95,7 +121,7 @@ async function metricOf(
             vertexCosts[vertex] = cost;
         }
     }
-    return { ...solve.metric, vertexCosts };
+    return vertexCosts;
 }
 
 function printNotes(command: EmbedCommand, notes: string[]): void {
@@ -126,7 +152,7 @@ function constraintsOf(command: EmbedCommand, previous: CheckedDocument | null):
 async function solve(
     session: Session,
     command: EmbedCommand,
-    asked: Pick<SolveOptions, "constraints" | "metric">,
+    asked: Pick<SolveOptions, "constraints" | "excluded" | "metric">,
     signal: AbortSignal,
 ): Promise<EmbedResult> {
     const line = new ProgressLine(process.stderr.isTTY && !command.quiet);

@@ -51,6 +51,10 @@ Options of embed
                        on such edges in every shape
   --vertex-costs FILE  one number per target vertex and line, 0.001 to 1000: what a unit of length
                        costs there
+  --edge-weights FILE  one number per layout edge and line, 0.001 to 1000: how much the length of its
+                       path counts
+  --exclude DIR        an earlier output that is not to be found again (may be given several times;
+                       landmarks need not be given again): the next best embedding
   --previous DIR       an earlier output for the same layout, target and landmarks (which need not
                        be given again), for the two options that follow
   --avoid LIST         other routes for these edges, separated by commas; all others follow

@@ -32,27 +32,48 @@ export async function readReference(file: string): Promise<{
     };
 }
 
-/** A file with a number per line, one for each of `count` vertices. */
-export async function readVertexCosts(file: string, count: number): Promise<number[]> {
-    const { bytes, name } = await readInput("the file of vertex costs", file);
+/** What files of factors are about. */
+const factorFiles = {
+    vertexCosts: {
+        file: "the file of vertex costs",
+        owner: "the target",
+        elements: ["vertex", "vertices"],
+        says: "says that length costs",
+    },
+    edgeWeights: {
+        file: "the file of edge weights",
+        owner: "the layout",
+        elements: ["edge", "edges"],
+        says: "gives the weight",
+    },
+} as const;
+
+/** A file with a number per line, one for each of `count` elements. */
+export async function readFactors(
+    kind: keyof typeof factorFiles,
+    file: string,
+    count: number,
+): Promise<number[]> {
+    const { elements, ...of } = factorFiles[kind];
+    const { bytes, name } = await readInput(of.file, file);
     const words = new TextDecoder().decode(bytes).split(/\s+/).filter(Boolean);
-    const costs = words.map(Number);
-    const wrong = costs.findIndex((cost) => !(cost >= 0.001 && cost <= 1000));
+    const factors = words.map(Number);
+    const wrong = factors.findIndex((factor) => !(factor >= 0.001 && factor <= 1000));
     if (wrong >= 0) {
         throw new LayoutError(
             "invalidOption",
-            `${name} says that length costs ${words[wrong] ?? ""} at vertex ${String(wrong)}; ` +
+            `${name} ${of.says} ${words[wrong] ?? ""} at ${elements[0]} ${String(wrong)}; ` +
                 "give numbers from 0.001 to 1000.",
         );
     }
-    if (costs.length !== count) {
+    if (factors.length !== count) {
         throw new LayoutError(
             "invalidOption",
-            `${name} has ${String(costs.length)} numbers, the target ${String(count)} vertices; ` +
-                "give one number per vertex.",
+            `${name} has ${String(factors.length)} numbers, ${of.owner} ${String(count)} ` +
+                `${elements[1]}; give one number per ${elements[0]}.`,
         );
     }
-    return costs;
+    return factors;
 }
 
 /** The error of a file that could not be read. */

@@ -83,16 +83,17 @@ function embedding(value: unknown): CheckedDocument & Pick<EmbeddingDocument, "p
         throw damaged("embedding.json holds no embedding");
     }
     const metric = root.get("metric");
+    const factors = (name: string) =>
+        metric.get(name).nullOr(() => metric.get(name).list((factor) => factor.number()));
     return {
         cost: root.get("cost").number(),
         lowerBound: root.get("lowerBound").number(),
         gap: root.get("gap").number(),
         status: root.get("status").text(),
         metric: {
-            vertexCosts: metric
-                .get("vertexCosts")
-                .nullOr(() => metric.get("vertexCosts").list((cost) => cost.number())),
+            vertexCosts: factors("vertexCosts"),
             featureDiscount: metric.get("featureDiscount").number(),
+            edgeWeights: factors("edgeWeights"),
         },
         landmarks: root.get("landmarks").list((landmark) => landmark.id()),
         patches: root.get("patches").list((patch) => patch.nullOr(() => patch.id())),

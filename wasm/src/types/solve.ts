@@ -55,6 +55,15 @@ export interface PathConstraint {
 }
 
 /**
+ * An embedding by the path of every layout edge, in the order of LayoutInfo.edges: the edges of an
+ * earlier result are one.
+ */
+export type EmbeddingPaths = readonly {
+    /** As in EmbeddedEdge. Only its homotopy class counts. */
+    weakPath: readonly WeakPoint[];
+}[];
+
+/**
  * What a unit of length costs, by which paths are kept away from places or drawn to them. Bounds and
  * proofs hold in it as for plain length. In every shape, a path that runs along a sharp edge in the
  * embedding stays on it (of several along the same edge only one, the others run beside it). Vertex
@@ -69,6 +78,12 @@ export interface PathMetric {
      * faces meet at 60 degrees from flat, nothing up to 20 degrees. Default 0.
      */
     featureDiscount?: number;
+    /**
+     * Per layout edge, in the order of LayoutInfo.edges, how much the length of its path counts,
+     * from 0.001 to 1000; rounded to 1024ths of the largest. Where paths are in each other's way,
+     * those that count more go straight. Default: 1 for all.
+     */
+    edgeWeights?: ArrayLike<number>;
 }
 
 /**
@@ -111,6 +126,12 @@ export interface SolveOptions {
      * `{ rule: "avoid", edge: e.id, path: e.weakPath }`, where e is one of the edges of a result.
      */
     constraints?: readonly PathConstraint[];
+    /**
+     * Embeddings that are not to be found again, for the exact method alone: bounds are those of all
+     * others, which differ from each of these in the homotopy class of at least one path. With the
+     * best ones here, the next best is found: `excluded: [first.edges, second.edges]`.
+     */
+    excluded?: readonly EmbeddingPaths[];
     /** Whether to look for what the input may have meant instead (EmbedResult.doubts). Default: true. */
     doubts?: boolean;
     /**
