@@ -56,7 +56,7 @@ bool is_heuristic(Algorithm algorithm)
 std::unique_ptr<Solver> make_solver(const EmbeddingProblem& problem, const PathGraph& graph,
                                     std::uint64_t field_bytes, const EmbedOptions& options,
                                     std::vector<ClassConstraint> constraints,
-                                    std::vector<std::vector<std::vector<Index>>> excluded)
+                                    std::vector<DartPaths> excluded)
 {
     if (options.algorithm == Algorithm::exact) {
         ExactSolverOptions exact;

@@ -119,12 +119,12 @@ Result<std::vector<ClassConstraint>> class_constraints(
     return result;
 }
 
-Result<std::vector<std::vector<std::vector<Index>>>> embedding_darts(
-    const EmbeddingProblem& problem, const PathGraph& graph,
-    const std::vector<EmbeddingPaths>& embeddings)
+Result<std::vector<DartPaths>> embedding_darts(const EmbeddingProblem& problem,
+                                               const PathGraph& graph,
+                                               const std::vector<EmbeddingPaths>& embeddings)
 {
     const std::vector<Index> landmarks = landmark_nodes(problem, graph);
-    std::vector<std::vector<std::vector<Index>>> result;
+    std::vector<DartPaths> result;
     for (const EmbeddingPaths& paths : embeddings) {
         if (paths.size() != problem.layout->edge_count()) {
             return make_error(ErrorCode::invalidPath,

@@ -7,6 +7,7 @@
 #include "embedding/checker.hh"
 #include "layout/embedding_problem.hh"
 #include "search/class_constraints.hh"
+#include "search/excluded_embeddings.hh"
 #include "surface/path_graph.hh"
 
 namespace layout_embedding {
@@ -31,10 +32,10 @@ Result<std::vector<ClassConstraint>> class_constraints(
     const EmbeddingProblem& problem, const PathGraph& graph,
     const std::vector<PathConstraint>& constraints);
 
-/// Embeddings as darts of a path graph, per embedding and layout edge. Errors: invalidPath where
-/// there is not one path per layout edge, or a path is none.
-Result<std::vector<std::vector<std::vector<Index>>>> embedding_darts(
-    const EmbeddingProblem& problem, const PathGraph& graph,
-    const std::vector<EmbeddingPaths>& embeddings);
+/// Embeddings as darts of a path graph. Errors: invalidPath where there is not one path per layout
+/// edge, or a path is none.
+Result<std::vector<DartPaths>> embedding_darts(const EmbeddingProblem& problem,
+                                               const PathGraph& graph,
+                                               const std::vector<EmbeddingPaths>& embeddings);
 
 }  // namespace layout_embedding

@@ -40,7 +40,7 @@ public:
     Length length(Index layout_edge, Length cost) const
     {
         const Length weight = of(layout_edge);
-        return cost == kInfiniteLength || weight == 1 ? cost : (cost - 1) / weight + 1;
+        return cost == kInfiniteLength ? cost : cost / weight + (cost % weight != 0 ? 1 : 0);
     }
 
 private:

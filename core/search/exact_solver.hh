@@ -18,7 +18,7 @@ struct ExactSolverOptions {
     std::vector<ClassConstraint> constraints;
     /// Embeddings that do not count (ExcludedEmbeddings), as those found before when the next best
     /// is asked for. Bounds are those of all others.
-    std::vector<std::vector<std::vector<Index>>> excluded;
+    std::vector<DartPaths> excluded;
     /// Parts that can be switched off to see what they contribute; the optimum stays the same.
     /// Improve the start by insertion that looks ahead and local search on insertion orders.
     bool local_search = true;

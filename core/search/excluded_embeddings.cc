@@ -4,9 +4,8 @@
 
 namespace layout_embedding {
 
-ExcludedEmbeddings::ExcludedEmbeddings(
-    CutSystems& cuts, const WalkPool& pool,
-    const std::vector<std::vector<std::vector<Index>>>& embeddings)
+ExcludedEmbeddings::ExcludedEmbeddings(CutSystems& cuts, const WalkPool& pool,
+                                       const std::vector<DartPaths>& embeddings)
     : cuts_(cuts), pool_(pool)
 {
     for (const auto& paths : embeddings) {

@@ -10,14 +10,17 @@
 
 namespace layout_embedding {
 
+/// An embedding as one path per layout edge: darts from tail(2e) to head(2e) that meet no landmark
+/// on their way.
+using DartPaths = std::vector<std::vector<Index>>;
+
 /// Embeddings that a search is not to find again, each as one homotopy class per layout edge. What
 /// differs from all of them in the class of at least one edge is another embedding.
 class ExcludedEmbeddings {
 public:
-    /// Keeps references to `cuts` and `pool`. Per embedding and layout edge: darts from tail(2e) to
-    /// head(2e) that meet no landmark on their way.
+    /// Keeps references to `cuts` and `pool`.
     ExcludedEmbeddings(CutSystems& cuts, const WalkPool& pool,
-                       const std::vector<std::vector<std::vector<Index>>>& embeddings);
+                       const std::vector<DartPaths>& embeddings);
 
     bool empty() const { return embeddings_.empty(); }
     /// Whether these walks of the pool, one per layout edge, are one of the embeddings.

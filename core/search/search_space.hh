@@ -22,7 +22,7 @@ struct SearchSpace {
     /// Keeps a reference to `graph`. `field_bytes`: see DistanceFields.
     SearchSpace(const EmbeddingProblem& problem, const PathGraph& graph, std::uint64_t field_bytes,
                 bool remember = true, const std::vector<ClassConstraint>& class_constraints = {},
-                const std::vector<std::vector<std::vector<Index>>>& excluded_embeddings = {})
+                const std::vector<DartPaths>& excluded_embeddings = {})
         : strands(problem, graph),
           fields(graph, strands.passable(), field_bytes),
           search(strands, fields),
