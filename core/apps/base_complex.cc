@@ -20,6 +20,33 @@ bool all_quads(const Layout& layout)
     return true;
 }
 
+/// The mean length of the layout edges that a loop passes, or of their halves. Every loop passes
+/// one.
+std::vector<double> loop_lengths(const BaseComplex& base, const Layout& layout,
+                                 std::span<const double> lengths)
+{
+    const Index parts = base.is_subdivided() ? 2 : 1;
+    std::vector<double> sums(base.loop_count(), 0);
+    std::vector<Index> counts(base.loop_count(), 0);
+    for (Index edge = 0; edge < layout.edge_count(); ++edge) {
+        for (Index part = 0; part < parts; ++part) {
+            const Index loop = base.loops()[base.edges_of(edge)[part]];
+            sums[loop] += lengths[edge] / parts;
+            ++counts[loop];
+        }
+    }
+    for (Index loop = 0; loop < base.loop_count(); ++loop) {
+        sums[loop] /= counts[loop];
+    }
+    return sums;
+}
+
+Index segments_for(double loop_length, double edge_length)
+{
+    const double wanted = std::floor(loop_length / edge_length + 0.5);
+    return static_cast<Index>(std::clamp(wanted, 1.0, double(kMaxSegments)));
+}
+
 }  // namespace
 
 BaseComplex::BaseComplex(const Layout& layout) : is_subdivided_(!all_quads(layout))
@@ -89,20 +116,9 @@ Result<std::vector<Index>> choose_segments(const BaseComplex& base, const Layout
                           "the edge length of the quads is not a positive number");
     }
     const Index parts = base.is_subdivided() ? 2 : 1;
-    std::vector<double> sums(base.loop_count(), 0);
-    std::vector<Index> counts(base.loop_count(), 0);
-    for (Index edge = 0; edge < layout.edge_count(); ++edge) {
-        for (Index part = 0; part < parts; ++part) {
-            const Index loop = base.loops()[base.edges_of(edge)[part]];
-            sums[loop] += lengths[edge] / parts;
-            ++counts[loop];
-        }
-    }
-    std::vector<Index> of_loops(base.loop_count(), 1);
-    for (Index loop = 0; loop < base.loop_count(); ++loop) {
-        // Every loop passes a layout edge.
-        const double wanted = std::floor(sums[loop] / counts[loop] / edge_length + 0.5);
-        of_loops[loop] = static_cast<Index>(std::clamp(wanted, 1.0, double(kMaxSegments)));
+    std::vector<Index> of_loops;
+    for (const double length : loop_lengths(base, layout, lengths)) {
+        of_loops.push_back(segments_for(length, edge_length));
     }
     std::vector<Index> given(base.loop_count(), 0);
     for (const auto& [edge, count] : prescribed) {
@@ -131,6 +147,38 @@ Result<std::vector<Index>> choose_segments(const BaseComplex& base, const Layout
         segments[edge] = of_loops[base.loops()[edge]];
     }
     return segments;
+}
+
+double edge_length_for(const BaseComplex& base, const Layout& layout,
+                       std::span<const double> lengths, double quads)
+{
+    const std::vector<double> of_loops = loop_lengths(base, layout, lengths);
+    const double longest = *std::max_element(of_loops.begin(), of_loops.end());
+    const auto count = [&](double segments_of_longest) {
+        double sum = 0;
+        for (const BaseComplex::Quad& quad : base.quads()) {
+            double product = 1;
+            for (const std::size_t side : {0, 1}) {
+                const double length = of_loops[base.loops()[quad.sides[side].edge]];
+                product *= segments_for(length, longest / segments_of_longest);
+            }
+            sum += product;
+        }
+        return sum;
+    };
+    // The number of quads only ever rises with the segments of the longest loop.
+    double few = 1;
+    double many = kMaxSegments;
+    if (count(few) >= quads) {
+        return longest / few;
+    }
+    constexpr int kHalvings = 50;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = (few + many) / 2;
+        (count(middle) < quads ? few : many) = middle;
+    }
+    const double segments = quads / count(few) < count(many) / quads ? few : many;
+    return longest / segments;
 }
 
 }  // namespace layout_embedding

@@ -73,4 +73,9 @@ Result<std::vector<Index>> choose_segments(const BaseComplex& base, const Layout
                                            std::span<const double> lengths, double edge_length,
                                            std::span<const std::pair<Index, Index>> prescribed);
 
+/// An edge length for which choose_segments() comes nearest to so many quads, in proportion; one
+/// that gives every edge one segment where that is too many already. O(#loops + #quads).
+double edge_length_for(const BaseComplex& base, const Layout& layout,
+                       std::span<const double> lengths, double quads);
+
 }  // namespace layout_embedding

@@ -21,17 +21,6 @@ constexpr double kDefaultQuads = 4000;
 /// About 2 GB.
 constexpr double kMostVertices = 16'000'000;
 
-double surface_area(const TriangleMesh& mesh)
-{
-    double sum = 0;
-    for (Index face = 0; face < mesh.face_count(); ++face) {
-        const auto corners = mesh.face(face);
-        const Vec3& a = mesh.position(corners[0]);
-        sum += (mesh.position(corners[1]) - a).cross(mesh.position(corners[2]) - a).norm() / 2;
-    }
-    return sum;
-}
-
 }  // namespace
 
 class QuadMeshJob::Mesher {
@@ -96,16 +85,16 @@ public:
 private:
     Status choose()
     {
-        if (!options_.segments_as.empty()) {
-            return take_segments();
-        }
         std::vector<double> lengths;
         for (const std::vector<Index>& chain : refined_.chains) {
             lengths.push_back(chain_length(refined_, chain));
         }
-        const double edge_length = options_.edge_length != 0
-                                       ? options_.edge_length
-                                       : std::sqrt(surface_area(target_) / kDefaultQuads);
+        mesh_.default_edge_length = edge_length_for(base_, layout_, lengths, kDefaultQuads);
+        if (!options_.segments_as.empty()) {
+            return take_segments();
+        }
+        const double edge_length =
+            options_.edge_length != 0 ? options_.edge_length : mesh_.default_edge_length;
         auto segments = choose_segments(base_, layout_, lengths, edge_length, options_.segments);
         if (!segments) {
             return segments.error();

@@ -45,6 +45,8 @@ struct QuadMesh {
     std::vector<Index> segments;
     /// Per layout edge: the dual loops of its two halves, the same without a subdivision.
     std::vector<std::array<Index, 2>> loops;
+    /// The edge length that counts where none is given.
+    double default_edge_length = 0;
     QuadStatistics statistics;
 };
 

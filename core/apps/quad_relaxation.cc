@@ -88,6 +88,8 @@ private:
     static constexpr int kMostInVain = 2;
     /// Neighbourhoods that are placed anew.
     static constexpr Index kMostAttempts = 160;
+    /// Moves of vertices that this may take, per vertex of the mesh.
+    static constexpr std::size_t kMostReopeningMoves = 500;
     struct Attempt {
         int rings;
         bool spreads;
@@ -297,6 +299,9 @@ private:
             ++reopened_quad_;
             reopened_size_ = 0;
         }
+        if (reopening_moves_ > kMostReopeningMoves * mesh_.positions.size()) {
+            return false;
+        }
         if (reopened_quad_ < mesh_.quads.size()) {
             has_reopened_ = reopen(reopened_quad_, kAttempts[reopened_size_++]) || has_reopened_;
             return true;
@@ -329,6 +334,7 @@ private:
             places.emplace_back(mesh_.points[v], mesh_.positions[v]);
         }
         for (int round = 0; round < kRoundsPerRing * attempt.rings; ++round) {
+            reopening_moves_ += inside.size();
             for (const Index v : inside) {
                 if (!attempt.spreads) {
                     improve(v, true);
@@ -340,11 +346,13 @@ private:
         }
         for (int turn = 0; turn < kTurns && flipped() > 0; ++turn) {
             for (int round = 0; round < kImprovingRounds && flipped() > 0; ++round) {
+                reopening_moves_ += inside.size();
                 for (const Index v : inside) {
                     improve(v);
                 }
             }
             for (int round = 0; round < kMendingRounds && flipped() > 0; ++round) {
+                reopening_moves_ += inside.size();
                 for (const Index v : inside) {
                     if (quality(v) < kBadQuality) {
                         look_around(v);
@@ -562,6 +570,7 @@ private:
     Index reopened_quad_ = 0;
     std::size_t reopened_size_ = 0;
     bool has_reopened_ = false;
+    std::size_t reopening_moves_ = 0;
     std::vector<bool> is_active_;                   // per vertex, while smoothing
     std::vector<Vec3> normals_;                     // per face of the target
     const Domain directions_ = regular_polygon(8);  // that are tried around a vertex

@@ -251,6 +251,37 @@ TEST(QuadMesh, conforms_on_every_kind_of_surface)
     }
 }
 
+TEST(QuadMesh, has_about_four_thousand_quads_where_nothing_is_said)
+{
+    // Paths of very different lengths: the area alone would say little.
+    const PolygonMesh sphere = zoo::stretched_sphere(3, Vec3(1, 1, 4));
+    for (const PolygonMesh& layout : {zoo::cube(), zoo::prism(5), zoo::icosahedron()}) {
+        const auto embedded = embed(
+            test::problem_of(layout, sphere, zoo::displaced_landmarks(layout, sphere, 0.4, 3)));
+        ASSERT_TRUE(embedded.has_value());
+        const Layout& made_layout = *embedded->problem.layout;
+        QuadOptions options;
+        options.relaxation_rounds = 0;
+        const auto quads =
+            make_quad_mesh(made_layout, *embedded->problem.target, embedded->refined, options);
+        ASSERT_TRUE(quads.ok()) << quads.error().message;
+        expect_sound(*embedded, *quads);
+        const auto off = [](std::size_t count) {
+            return std::abs(std::log(static_cast<double>(count) / 4000));
+        };
+        EXPECT_LT(off(quads->quads.size()), 0.2);
+        // No other length comes nearer.
+        for (int i = -4; i <= 4; ++i) {
+            options.edge_length = quads->default_edge_length * std::exp2(i / 16.0);
+            const auto other =
+                make_quad_mesh(made_layout, *embedded->problem.target, embedded->refined, options);
+            ASSERT_TRUE(other.ok()) << other.error().message;
+            EXPECT_GE(off(other->quads.size()), off(quads->quads.size()) - 1e-12);
+            EXPECT_EQ(other->default_edge_length, quads->default_edge_length);
+        }
+    }
+}
+
 TEST(QuadMesh, takes_over_the_numbers_of_segments_of_another_mesh_of_the_layout)
 {
     // Triangles: every edge has two loops, whose numbers differ on the first target.

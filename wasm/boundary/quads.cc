@@ -126,18 +126,19 @@ BOUNDARY_EXPORT(boundary_quads_loops) std::uint32_t boundary_quads_loops(std::ui
     });
 }
 
-/// Views the statistics as 10 doubles: least and mean scaled Jacobian, flipped quads, least and
-/// largest angle, angle deviation, least, mean and largest edge, whether all faces were subdivided.
+/// Views the statistics as 11 doubles: least and mean scaled Jacobian, flipped quads, least and
+/// largest angle, angle deviation, least, mean and largest edge, whether all faces were subdivided,
+/// the default edge length.
 BOUNDARY_EXPORT(boundary_quads_statistics)
 std::uint32_t boundary_quads_statistics(std::uint32_t mesh)
 {
     return guarded(0U, [&] {
         const QuadMesh& quads = quad_mesh(mesh);
         const QuadStatistics& s = quads.statistics;
-        set_owned_view(
-            std::vector<double>{s.least_jacobian, s.mean_jacobian, static_cast<double>(s.flipped),
-                                s.least_angle, s.largest_angle, s.angle_deviation, s.least_edge,
-                                s.mean_edge, s.largest_edge, quads.is_subdivided ? 1.0 : 0.0});
+        set_owned_view(std::vector<double>{
+            s.least_jacobian, s.mean_jacobian, static_cast<double>(s.flipped), s.least_angle,
+            s.largest_angle, s.angle_deviation, s.least_edge, s.mean_edge, s.largest_edge,
+            quads.is_subdivided ? 1.0 : 0.0, quads.default_edge_length});
         return 1U;
     });
 }

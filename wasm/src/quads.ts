@@ -80,6 +80,7 @@ function readQuads(core: Core, mesh: Handle): QuadMesh {
         meanEdge = 0,
         largestEdge = 0,
         subdivided = 0,
+        defaultEdgeLength = 0,
     ] = core.viewedDoubles();
     core.call("boundary_quads_write_obj", mesh);
     return {
@@ -90,6 +91,7 @@ function readQuads(core: Core, mesh: Handle): QuadMesh {
         loops,
         segments,
         subdivided: subdivided !== 0,
+        defaultEdgeLength,
         statistics: {
             leastJacobian,
             meanJacobian,

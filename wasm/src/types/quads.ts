@@ -35,6 +35,8 @@ export interface QuadMesh {
     loops: Uint32Array;
     /** Whether the layout had a face without four sides, so that all were subdivided once. */
     subdivided: boolean;
+    /** The edge length that counts where none is given. */
+    defaultEdgeLength: number;
     /** How good its quads are. */
     statistics: {
         /** Scaled Jacobians: 1 for a rectangle, not positive where a quad is flipped. */

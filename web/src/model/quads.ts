@@ -31,8 +31,8 @@ export const noQuads: QuadState = {
     error: null,
 };
 
-/** The package's own edge length: that of 4000 squares with the area of the target. */
-export function usualEdgeLength({ positions, corners }: TargetInfo): number {
+/** About the package's own edge length: that of 4000 squares with the area of the target. */
+export function guessedEdgeLength({ positions, corners }: TargetInfo): number {
     let twice = 0;
     for (let t = 0; t < corners.length; t += 3) {
         const [a, b, c] = [3 * corners[t]!, 3 * corners[t + 1]!, 3 * corners[t + 2]!];

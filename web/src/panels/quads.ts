@@ -1,7 +1,7 @@
 import type { QuadMesh } from "layout-embedding";
 import type { Actions } from "../model/actions.js";
 import { formatCount, formatFigure, formatLength, formatWhole } from "../model/describe.js";
-import { loopGroups, usualEdgeLength, type LoopGroup, type QuadState } from "../model/quads.js";
+import { guessedEdgeLength, loopGroups, type LoopGroup, type QuadState } from "../model/quads.js";
 import type { AppState } from "../model/state.js";
 import type { Store } from "../model/store.js";
 import { create, download, element, figureRows, setText } from "./dom.js";
@@ -21,10 +21,17 @@ export function quadsPanel(store: Store<AppState>, actions: Actions): void {
         if (wanted > 0) actions.quadMesh.setEdgeLength(wanted);
         else if (length.value === "") actions.quadMesh.setEdgeLength(null);
     });
+    // Only a mesh says what the package's own edge length is; until there is one, a guess.
     store.watch(
-        (state) => [state.target, state.quadMesh.edgeLength],
-        (target, edgeLength) => {
-            usual = target ? usualEdgeLength(target) : 1;
+        (state) => [state.target],
+        (target) => {
+            usual = target ? guessedEdgeLength(target) : 1;
+        },
+    );
+    store.watch(
+        (state) => [state.target, state.quadMesh.edgeLength, state.quadMesh.mesh],
+        (_, edgeLength, mesh) => {
+            usual = mesh?.defaultEdgeLength ?? usual;
             const shown = edgeLength ?? usual;
             length.value = String(Number(shown.toPrecision(4)));
             density.value = String(Math.log2(usual / shown));
