@@ -14,6 +14,7 @@
 #include "embedding/weak_to_normal_form.hh"
 #include "patches/fairing.hh"
 #include "search/exact_solver.hh"
+#include "search/given_solver.hh"
 #include "search/greedy_solver.hh"
 #include "search/sequence_solver.hh"
 #ifdef LAYOUT_EMBEDDING_DEBUG_CHECKS
@@ -157,7 +158,8 @@ struct EmbedJob::Implementation {
         // of paths makes others longer, and weights belong to the layout as it is.
         const bool comparable = options.look_for_doubts && !is_heuristic(options.algorithm) &&
                                 options.constraints.empty() && options.excluded.empty() &&
-                                options.edge_weights.empty() && boundary.empty();
+                                options.given.empty() && options.edge_weights.empty() &&
+                                boundary.empty();
         if (stopped || compared || !comparable) {
             end(status);
             return;
@@ -366,6 +368,15 @@ struct EmbedJob::Implementation {
             for (const BoundaryPath& path : boundary) {
                 constraints->push_back({path.layout_edge, true, path.darts});
             }
+        }
+        if (!options.given.empty()) {
+            auto given = embedding_darts(problem, *graph, {options.given});
+            if (!given) {
+                fail(EmbedStatus::failed, given.error());
+                return false;
+            }
+            solver = std::make_unique<GivenSolver>(problem, *graph, std::move(given->front()));
+            return true;
         }
         solver = make_solver(problem, *graph, field_bytes, options, std::move(*constraints),
                              std::move(*excluded));

@@ -79,6 +79,9 @@ struct EmbedOptions {
     /// of at least one path: with the best ones here, the next best is found. For the exact method
     /// alone; bounds are those of all other embeddings.
     std::vector<EmbeddingPaths> excluded;
+    /// The embedding to be realised, as a rule one that an earlier job found: nothing is searched,
+    /// and nothing proved. Not beside `constraints` and `excluded`.
+    EmbeddingPaths given;
     /// Whether layout boundary edges with both landmarks on the target's boundary run along it
     /// (apps/boundary_paths.hh); for the exact method alone. Costs and bounds are those of the
     /// embeddings with these paths. Error: invalidOption.

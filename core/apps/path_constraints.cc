@@ -128,7 +128,7 @@ Result<std::vector<DartPaths>> embedding_darts(const EmbeddingProblem& problem,
     for (const EmbeddingPaths& paths : embeddings) {
         if (paths.size() != problem.layout->edge_count()) {
             return make_error(ErrorCode::invalidPath,
-                              "an embedding to be excluded has " + std::to_string(paths.size()) +
+                              "an embedding has " + std::to_string(paths.size()) +
                                   " paths for the " + std::to_string(problem.layout->edge_count()) +
                                   " edges of the layout");
         }

@@ -100,6 +100,56 @@ TEST(ExcludedEmbeddings, the_next_best_is_found_and_damaged_ones_are_refused)
     }
 }
 
+TEST(GivenEmbedding, is_taken_as_it_is_or_refused)
+{
+    EmbedOptions options;
+    const auto solve = [&](const EmbeddingProblem& problem) {
+        EmbedJob job(problem, options);
+        while (job.step()) {
+        }
+        return job;
+    };
+    int mixed_embedded = 0;
+    int mixed_refused = 0;
+    for (const auto& [name, problem, graph, weak] : test::embedded_instances(44)) {
+        SCOPED_TRACE(name);
+        // Not a short one, and its graph has other lengths: what counts is where paths run.
+        options.given = weak_points(*problem.target, graph, weak);
+        const EmbedJob job = solve(problem);
+        ASSERT_EQ(job.result().status, EmbedStatus::feasible) << job.error().message;
+        ASSERT_TRUE(job.result().refined);
+        EXPECT_EQ(routes(job), options.given);
+        EXPECT_EQ(job.result().exact_lower_bound, 0U);
+        EXPECT_EQ(job.result().exact_cost, test::total_length(*job.graph(), job.result().weak));
+        test::expect_valid(problem, *job.graph(), job.result().weak, *job.result().refined);
+
+        // Paths of two embeddings seldom go together.
+        EmbedOptions greedy;
+        greedy.algorithm = Algorithm::greedy;
+        EmbedJob short_one(problem, greedy);
+        while (short_one.step()) {
+        }
+        if (short_one.result().refined) {
+            for (Index e = 0; e < options.given.size(); e += 2) {
+                options.given[e] = routes(short_one)[e];
+            }
+            const EmbedJob mixed = solve(problem);
+            if (mixed.result().refined) {
+                test::expect_valid(problem, *mixed.graph(), mixed.result().weak,
+                                   *mixed.result().refined);
+                ++mixed_embedded;
+            } else {
+                EXPECT_EQ(mixed.result().status, EmbedStatus::none_found);
+                ++mixed_refused;
+            }
+        }
+        options.given.pop_back();
+        EXPECT_EQ(solve(problem).error().code, ErrorCode::invalidPath);
+    }
+    EXPECT_GT(mixed_embedded, 5);
+    EXPECT_GT(mixed_refused, 50);
+}
+
 TEST(EdgeWeights, cost_is_the_weighted_length_whatever_the_algorithm)
 {
     const EmbeddingProblem problem = test::random_instances(43, 1)[0].problem;

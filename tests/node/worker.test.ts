@@ -77,6 +77,32 @@ function lengthOnEdges(path: Float64Array): number {
     return sum;
 }
 
+test("an_embedding_is_taken_over_by_another_session_as_it_is", async () => {
+    const load = async () => {
+        const session = await worker.createSession();
+        await session.loadLayout(arrays(octahedron));
+        await session.loadTarget(arrays(sphere(3)));
+        await session.setLandmarks(displacedLandmarks);
+        return session;
+    };
+    const first = await load();
+    const found = await first.solve({ gap: 0 });
+    const second = await load();
+    const taken = await second.solve({ given: found.edges });
+    expect(taken).toMatchObject({ status: "feasible", gap: 1, exactCost: found.exactCost });
+    expect(taken.counters).toMatchObject({ searches: 0, expansions: 0 });
+    expect(taken.refined).toEqual(found.refined);
+    expect(taken.edges).toEqual(found.edges);
+    // Two paths that run where others do.
+    const [a, b] = [found.edges[0]!, found.edges[1]!];
+    const wrong = found.edges.map((edge) => (edge === b ? a : edge));
+    await expect(second.solve({ given: wrong })).rejects.toMatchObject({ code: "invalidPath" });
+    await expect(
+        second.solve({ given: found.edges, excluded: [found.edges] }),
+    ).rejects.toMatchObject({ code: "invalidOption" });
+    await Promise.all([first.dispose(), second.dispose()]);
+});
+
 test("paths_that_follow_a_dragged_landmark_stay_on_the_sharp_edges_of_the_solve", async () => {
     const session = await worker.createSession();
     await session.loadLayout(problem.layout);

@@ -82,7 +82,8 @@ std::uint32_t with_refined(std::uint32_t handle, Body body)
 /// constraints on paths: the layout edge, 1 to keep or 0 to avoid, and a path as
 /// boundary_job_weak_points() gives them. `edge_weights`: 0 or as many as layout edges.
 /// `excluded_count` embeddings that are not to be found: how many paths each has, and all these
-/// paths. Returns its handle.
+/// paths. `given_count` paths of an embedding that is to be taken as it is, or 0. Returns its
+/// handle.
 BOUNDARY_EXPORT(boundary_job_create)
 std::uint32_t boundary_job_create(
     std::uint32_t layout, std::uint32_t target, const Index* landmarks, std::size_t landmark_count,
@@ -93,7 +94,8 @@ std::uint32_t boundary_job_create(
     const std::uint32_t* are_kept, const WeakPoint* path_points, const Index* path_offsets,
     std::size_t constraint_count, const double* edge_weights, std::size_t edge_weight_count,
     const std::uint32_t* excluded_sizes, const WeakPoint* excluded_points,
-    const Index* excluded_offsets, std::size_t excluded_count)
+    const Index* excluded_offsets, std::size_t excluded_count, const WeakPoint* given_points,
+    const Index* given_offsets, std::size_t given_count)
 {
     return guarded(0U, [&] {
         auto problem = make_problem(handles<LayoutObject>().get(layout).layout,
@@ -129,6 +131,7 @@ std::uint32_t boundary_job_create(
             options.excluded.push_back(unflattened(excluded_points, offsets, excluded_sizes[i]));
             offsets += excluded_sizes[i];
         }
+        options.given = unflattened(given_points, given_offsets, given_count);
         return handles<JobObject>().add(
             std::make_unique<JobObject>(JobObject{EmbedJob(std::move(*problem), std::move(options)),
                                                   handles<TargetObject>().get(target).attributes}));

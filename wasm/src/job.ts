@@ -65,6 +65,7 @@ export interface JobOptions {
     metric: { vertexCosts: Float64Array; featureDiscount: number; edgeWeights: Float64Array };
     constraints: readonly PathConstraint[];
     excluded: readonly EmbeddingPaths[];
+    given: EmbeddingPaths;
     doubts: boolean;
 }
 
@@ -86,6 +87,7 @@ export function jobOptions(options: SolveOptions): JobOptions {
         },
         constraints: options.constraints ?? [],
         excluded: options.excluded ?? [],
+        given: options.given ?? [],
         doubts: options.doubts ?? true,
     };
     const refuse = (name: string, value: unknown, wanted: string) =>
@@ -143,6 +145,9 @@ export function jobOptions(options: SolveOptions): JobOptions {
     if (checked.excluded.length > 0 && checked.algorithm !== "exact") {
         throw refuse("algorithm", checked.algorithm, "exact where embeddings are excluded");
     }
+    if (checked.given.length > 0 && checked.constraints.length + checked.excluded.length > 0) {
+        throw refuse("given", "an embedding", "left out where routes or embeddings are ruled out");
+    }
     return checked;
 }
 
@@ -154,7 +159,7 @@ export function createJob(
     landmarks: Uint32Array,
     options: JobOptions,
 ): Handle {
-    const { constraints, excluded, metric } = options;
+    const { constraints, excluded, given, metric } = options;
     const refuse = (edge: number) =>
         new LayoutError(
             "invalidPath",
@@ -170,6 +175,10 @@ export function createJob(
     const excludedPaths = flattenedWeakPaths(
         excluded.flatMap((embedding) => embedding.map(({ weakPath }) => weakPath)),
         (place) => refuse(edges[place] ?? 0),
+    );
+    const givenPaths = flattenedWeakPaths(
+        given.map(({ weakPath }) => weakPath),
+        refuse,
     );
     return core.withCopies((copy) =>
         core.call(
@@ -201,6 +210,9 @@ export function createJob(
             copy(excludedPaths.items),
             copy(excludedPaths.offsets),
             excluded.length,
+            copy(givenPaths.items),
+            copy(givenPaths.offsets),
+            given.length,
         ),
     );
 }

@@ -132,6 +132,12 @@ export interface SolveOptions {
      * best ones here, the next best is found: `excluded: [first.edges, second.edges]`.
      */
     excluded?: readonly EmbeddingPaths[];
+    /**
+     * An embedding that is taken as it is, as a rule the edges of an earlier result for the same
+     * target and landmarks: nothing is searched or proved, and the gap is 1. Where its paths cannot
+     * be embedded together the status is `noneFound`. Not beside `constraints` and `excluded`.
+     */
+    given?: EmbeddingPaths;
     /** Whether to look for what the input may have meant instead (EmbedResult.doubts). Default: true. */
     doubts?: boolean;
     /**

@@ -28,7 +28,7 @@ export class Workshop {
     ) {}
 
     /**
-     * Has `work` done with a session that has the embedding of the engine's problem with the routes
+     * Has `work` done with a session that has the embedding of the engine's problem with the paths
      * of `result`, which was found with `options`.
      */
     async with<Made>(
@@ -90,14 +90,8 @@ export class Workshop {
             await session.setLandmarks(result.landmarks, { numbering: "loaded" });
             const { refined } = await session.solve({
                 ...options,
-                // All embeddings with these routes cost the same: the first one does.
-                gap: 1,
                 doubts: false,
-                constraints: result.edges.map(({ id, weakPath }) => ({
-                    rule: "keep",
-                    edge: id,
-                    path: weakPath,
-                })),
+                given: result.edges.map(({ weakPath }) => ({ weakPath })),
                 signal,
             });
             // Aborted so early that there is nothing yet.
