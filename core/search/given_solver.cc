@@ -1,10 +1,24 @@
 #include "search/given_solver.hh"
 
+#include <algorithm>
 #include <utility>
 
 #include "surface/hole_guard.hh"
+#include "surface/stretch.hh"
 
 namespace layout_embedding {
+
+namespace {
+
+/// Whether a walk crosses itself or turns back on its way, as no path of an embedding does.
+bool is_tangled(const PathGraph& graph, const std::vector<Index>& darts)
+{
+    const auto turns_back = [&](Index dart, Index next) { return graph.twin(dart) == next; };
+    return std::adjacent_find(darts.begin(), darts.end(), turns_back) != darts.end() ||
+           walk_crosses_itself(graph, darts);
+}
+
+}  // namespace
 
 GivenSolver::GivenSolver(const EmbeddingProblem& problem, const PathGraph& graph, DartPaths paths)
     : strands_(problem, graph), paths_(std::move(paths))
@@ -19,7 +33,7 @@ Solver::Outcome GivenSolver::run(WorkBudget& budget)
     Length cost = 0;
     for (Index e = 0; e < paths_.size(); ++e) {
         budget.charge(paths_[e].size());
-        if (!strands_.insert(e, paths_[e])) {
+        if (is_tangled(strands_.graph(), paths_[e]) || !strands_.insert(e, paths_[e])) {
             return Outcome::finished;
         }
         Length length = 0;

@@ -10,8 +10,8 @@
 namespace layout_embedding {
 
 /// Takes an embedding as it is given, as a rule one found earlier: its paths, without any search.
-/// Proves nothing. Ends without an embedding where the paths meet, or leave a landmark in another
-/// order than the layout's.
+/// Proves nothing. Ends without an embedding where the paths meet, cross themselves, or leave a
+/// landmark in another order than the layout's.
 class GivenSolver : public Solver {
 public:
     /// Keeps a reference to `graph`.
