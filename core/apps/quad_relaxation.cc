@@ -4,13 +4,40 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "apps/quad_unfolding.hh"
 #include "patches/newton_step.hh"
 
 namespace layout_embedding {
+namespace {
+
+/// What opens a fold: vertices spread out as means of their neighbours, lower their energy one
+/// by one whatever that flips on the way, or unfold together: at once, softly at first, or to
+/// quads of one size.
+enum class Opening : std::uint8_t { spread, lower, unfold, soften, inflate };
+struct Attempt {
+    int rings;
+    Opening opening;
+    /// Moves what is around a landmark back onto it first; for quads at landmarks.
+    bool centres = false;
+};
+constexpr std::array<Attempt, 26> kAttempts{{
+    {4, Opening::soften, true},  {8, Opening::soften, true}, {4, Opening::inflate, true},
+    {8, Opening::inflate, true}, {2, Opening::unfold},       {2, Opening::soften},
+    {3, Opening::unfold},        {3, Opening::inflate},      {1, Opening::spread},
+    {2, Opening::spread},        {2, Opening::inflate},      {2, Opening::lower},
+    {5, Opening::unfold},        {5, Opening::soften},       {5, Opening::inflate},
+    {3, Opening::spread},        {4, Opening::lower},        {8, Opening::unfold},
+    {8, Opening::soften},        {8, Opening::inflate},      {5, Opening::spread},
+    {8, Opening::spread},        {8, Opening::lower},        {12, Opening::unfold},
+    {12, Opening::inflate},      {16, Opening::unfold},
+}};
+
+}  // namespace
 
 class QuadRelaxation::Implementation {
 public:
@@ -62,13 +89,17 @@ public:
             case Stage::smooth:
                 return 0.1 * share;
             case Stage::settle:
-                return 0.1 + 0.5 * share;
+                return 0.1 + 0.3 * share;
+            case Stage::unfold:
+                return 0.4 + 0.2 * share;
             case Stage::untangle:
             case Stage::mend:
                 return 0.6 +
                        0.3 * (turn_ + (stage_ == Stage::mend ? 0.5 : 0) + share / 2) / kMostTurns;
             case Stage::reopen:
-                return 0.9 + 0.1 * share;
+                return 0.9 + 0.05 * share;
+            case Stage::resettle:
+                return 0.95 + 0.05 * share;
             case Stage::over:
                 break;
         }
@@ -77,31 +108,32 @@ public:
 
 private:
     /// Means of neighbours even the mesh out where it is good. Elsewhere a smooth energy of all
-    /// corners does. What is flipped then is untangled by turns, for as long as that makes flipped
-    /// quads fewer: the energy around bad quads, and the worst quad around each vertex. Neither
-    /// step is taken where it would flip more. What is still flipped has folded neighbours, and is
-    /// placed anew together with them.
-    enum class Stage : std::uint8_t { smooth, settle, untangle, mend, reopen, over };
+    /// corners does. If quads are flipped then, all vertices lower it together until none is. What
+    /// is flipped even so is untangled by turns, for as long as that makes flipped quads fewer: the
+    /// energy around bad quads, and the worst quad around each vertex. Neither step is taken where
+    /// it would flip more. What is still flipped has folded neighbours, and is placed anew together
+    /// with them.
+    enum class Stage : std::uint8_t {
+        smooth,
+        settle,
+        unfold,
+        untangle,
+        mend,
+        reopen,
+        resettle,
+        over
+    };
 
     static constexpr Index kSmoothRounds = 5;
     static constexpr int kMostTurns = 8;
     static constexpr int kMostInVain = 2;
     /// Neighbourhoods that are placed anew.
-    static constexpr Index kMostAttempts = 160;
+    static constexpr Index kMostAttempts = 600;
     /// Moves of vertices that this may take, per vertex of the mesh.
     static constexpr std::size_t kMostReopeningMoves = 500;
-    struct Attempt {
-        int rings;
-        bool spreads;
-    };
-    static constexpr std::array<Attempt, 8> kAttempts{{{1, true},
-                                                       {2, true},
-                                                       {2, false},
-                                                       {3, true},
-                                                       {4, false},
-                                                       {5, true},
-                                                       {8, true},
-                                                       {8, false}}};
+    static constexpr double kLeastSoftness = 1e-4;
+    static constexpr double kMostSoftness = 0.2;
+    static constexpr double kSoftnessPerRound = 0.85;
     /// In lengths of the edges around a vertex.
     static constexpr double kLeastMove = 1e-3;
     /// The least scaled Jacobian of vertices that look around.
@@ -113,9 +145,11 @@ private:
             case Stage::smooth:
                 return std::min(kSmoothRounds, rounds_);
             case Stage::settle:
+            case Stage::unfold:
             case Stage::untangle:
                 return 2 * rounds_;
             case Stage::mend:
+            case Stage::resettle:
                 return rounds_;
             case Stage::reopen:
                 return rounds_ > 0 ? kMostAttempts : 0;
@@ -135,7 +169,10 @@ private:
             case Stage::smooth:
                 return smooth();
             case Stage::settle:
+            case Stage::resettle:
                 return untangle(kAll);
+            case Stage::unfold:
+                return unfold();
             case Stage::untangle:
                 return untangle(turn_ % 2 == 0 ? kBadAtFirst : kBad);
             case Stage::mend:
@@ -155,6 +192,12 @@ private:
                 stage_ = Stage::settle;
                 break;
             case Stage::settle:
+                stage_ = Stage::unfold;
+                break;
+            case Stage::unfold:
+                if (least_unfolded_ != kNone) {
+                    std::tie(mesh_.points, mesh_.positions) = std::move(unfolded_);
+                }
                 stage_ = Stage::untangle;
                 break;
             case Stage::untangle:
@@ -164,6 +207,9 @@ private:
                 stage_ = next_turn();
                 break;
             case Stage::reopen:
+                stage_ = Stage::resettle;
+                break;
+            case Stage::resettle:
             case Stage::over:
                 stage_ = Stage::over;
                 break;
@@ -230,14 +276,21 @@ private:
         return least;
     }
 
-    Index flipped_around(Index v) const
+    Index flipped_around(Index v, double least = 0) const
     {
         Index count = 0;
         for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
             const auto& quad = mesh_.quads[quads_[place]];
-            count += scaled_jacobian(corners(quad), up(quad)) > 0 ? 0 : 1;
+            count += scaled_jacobian(corners(quad), up(quad)) > least ? 0 : 1;
         }
         return count;
+    }
+
+    /// Quads that are nearly flipped: at the end there are to be no more of these, either.
+    Index flat_around(Index v) const
+    {
+        constexpr double kFlat = 0.03;
+        return stage_ == Stage::resettle ? flipped_around(v, kFlat) : 0;
     }
 
     /// Moves v; how far, in lengths of the edges around it.
@@ -290,32 +343,34 @@ private:
         return count;
     }
 
-    /// Places the neighbourhood of the next flipped quad anew, in more and more rings; false once
-    /// none of them has helped.
+    /// Places the neighbourhood of the next flipped quad anew, in one way after the other; false
+    /// once nothing is flipped or no way is left.
     bool reopen()
     {
-        while (reopened_quad_ < mesh_.quads.size() &&
-               (reopened_size_ == kAttempts.size() || !is_flipped(reopened_quad_))) {
-            ++reopened_quad_;
-            reopened_size_ = 0;
-        }
         if (reopening_moves_ > kMostReopeningMoves * mesh_.positions.size()) {
             return false;
         }
+        while (reopened_quad_ < mesh_.quads.size() && !is_flipped(reopened_quad_)) {
+            ++reopened_quad_;
+        }
         if (reopened_quad_ < mesh_.quads.size()) {
-            has_reopened_ = reopen(reopened_quad_, kAttempts[reopened_size_++]) || has_reopened_;
+            has_reopened_ = reopen(reopened_quad_++, kAttempts[reopening_]) || has_reopened_;
             return true;
         }
-        const bool again = has_reopened_ && flipped_quads() > 0;
+        // What has helped with one quad may help with those that are left.
+        if (!has_reopened_) {
+            ++reopening_;
+        }
+        const bool again = reopening_ < kAttempts.size() && flipped_quads() > 0;
         has_reopened_ = false;
         reopened_quad_ = 0;
-        reopened_size_ = 0;
         return again;
     }
 
-    /// Spreads the vertices within some rings around a quad evenly, as means of their neighbours,
-    /// which opens folds, or lowers their energy whatever that flips on the way, and then improves
-    /// what is around them. All stays as it was unless fewer quads are flipped.
+    /// Unfolds the vertices within some rings around a quad together, or spreads them evenly, as
+    /// means of their neighbours, which opens folds, too, or lowers their energy one by one
+    /// whatever that flips on the way; and then improves what is around them. All stays as it was
+    /// unless fewer quads are flipped.
     bool reopen(Index quad, const Attempt& attempt)
     {
         constexpr int kRoundsPerRing = 10;
@@ -328,15 +383,33 @@ private:
             return std::count_if(touched.begin(), touched.end(),
                                  [&](Index q) { return is_flipped(q); });
         };
+        const Index landmark = attempt.centres ? inner_fixed_vertex(quad) : kNone;
+        if (attempt.centres && landmark == kNone) {
+            return false;
+        }
         const auto before = flipped();
         std::vector<std::pair<SurfacePoint, Vec3>> places;
         for (const Index v : inside) {
             places.emplace_back(mesh_.points[v], mesh_.positions[v]);
         }
-        for (int round = 0; round < kRoundsPerRing * attempt.rings; ++round) {
+        const int rounds = kRoundsPerRing * std::min(attempt.rings, 8);
+        double softness = attempt.opening == Opening::unfold ? kLeastSoftness : kMostSoftness;
+        for (int round = 0; round < rounds; ++round) {
             reopening_moves_ += inside.size();
+            if (attempt.centres) {
+                centre_on(landmark, attempt.rings - 1);
+            }
+            if (attempt.opening >= Opening::unfold) {
+                unfold_quads(target_, normals_, inside, touched,
+                             {softness, attempt.opening == Opening::inflate}, mesh_);
+                if (flipped() == 0) {
+                    break;
+                }
+                softness = std::max(softness * kSoftnessPerRound, kLeastSoftness);
+                continue;
+            }
             for (const Index v : inside) {
-                if (!attempt.spreads) {
+                if (attempt.opening == Opening::lower) {
                     improve(v, true);
                     continue;
                 }
@@ -367,6 +440,58 @@ private:
             std::tie(mesh_.points[inside[i]], mesh_.positions[inside[i]]) = places[i];
         }
         return false;
+    }
+
+    /// A corner of a quad that is fixed and has quads all around, kNone if there is none.
+    Index inner_fixed_vertex(Index quad) const
+    {
+        for (const Index v : mesh_.quads[quad]) {
+            std::map<Index, int> sides;
+            for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
+                const auto& corners = mesh_.quads[quads_[place]];
+                const auto at = static_cast<std::size_t>(
+                    std::find(corners.begin(), corners.end(), v) - corners.begin());
+                ++sides[corners[(at + 1) % 4]];
+                ++sides[corners[(at + 3) % 4]];
+            }
+            if (fixed_[v] && std::all_of(sides.begin(), sides.end(),
+                                         [](const auto& side) { return side.second == 2; })) {
+                return v;
+            }
+        }
+        return kNone;
+    }
+
+    /// Moves what is around a fixed vertex so that this lies in the middle of its neighbours, and
+    /// the less the more rings away.
+    void centre_on(Index centre, int rings)
+    {
+        std::set<Index> found{centre};
+        std::vector<Index> ring{centre};
+        Vec3 shift(0, 0, 0);
+        for (int level = 1; level <= rings; ++level) {
+            std::set<Index> next;
+            for (const Index q : quads_around(ring)) {
+                next.insert(mesh_.quads[q].begin(), mesh_.quads[q].end());
+            }
+            ring.clear();
+            std::set_difference(next.begin(), next.end(), found.begin(), found.end(),
+                                std::back_inserter(ring));
+            found.insert(next.begin(), next.end());
+            if (level == 1) {
+                for (const Index v : ring) {
+                    shift += (mesh_.positions[centre] - mesh_.positions[v]) / double(ring.size());
+                }
+            }
+            for (const Index v : ring) {
+                if (!fixed_[v]) {
+                    const double share = double(rings + 1 - level) / rings;
+                    mesh_.points[v] = walk_to_nearest(target_, mesh_.points[v],
+                                                      mesh_.positions[v] + share * shift);
+                    mesh_.positions[v] = position_of(target_, mesh_.points[v]);
+                }
+            }
+        }
     }
 
     /// In increasing order.
@@ -459,6 +584,35 @@ private:
         return sum;
     }
 
+    /// Lowers the energy of all vertices together. Folds may close on the way: the round with the
+    /// fewest counts.
+    bool unfold()
+    {
+        if (round_ == 0) {
+            keep_unfolded();
+            for (Index v = 0; v < mesh_.positions.size(); ++v) {
+                if (!fixed_[v]) {
+                    free_.push_back(v);
+                }
+            }
+            around_free_ = quads_around(free_);
+        }
+        if (least_unfolded_ == 0 || free_.empty()) {
+            return false;
+        }
+        unfold_quads(target_, normals_, free_, around_free_, {kLeastSoftness, false}, mesh_);
+        keep_unfolded();
+        return true;
+    }
+
+    void keep_unfolded()
+    {
+        if (const Index flipped = flipped_quads(); flipped < least_unfolded_) {
+            least_unfolded_ = flipped;
+            unfolded_ = {mesh_.points, mesh_.positions};
+        }
+    }
+
     /// Vertices around bad quads look around for a place where the worst quad is better.
     bool mend()
     {
@@ -533,6 +687,7 @@ private:
         const Vec3 along = normal.cross(across);
         const double before = distortion(v);
         const Index flipped = flipped_around(v);
+        const Index flat = flat_around(v);
         const double h = 1e-3 * std::max(length, 1e-3 * longest);
         PlanePoint step = newton_step(
             [&](double x, double y) {
@@ -540,7 +695,12 @@ private:
                 return distortion(v);
             },
             before, h);
-        if (const double size = step.norm(); size > longest) {
+        const double size = step.norm();
+        if (!std::isfinite(size)) {
+            mesh_.positions[v] = old_position;  // all around v lies in one place
+            return 0;
+        }
+        if (size > longest) {
             step *= longest / size;
         }
         for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
@@ -548,7 +708,8 @@ private:
                                               old_position + step.x() * across + step.y() * along);
             mesh_.positions[v] = position_of(target_, mesh_.points[v]);
             const double after = distortion(v);
-            if (after < before && (may_flip || flipped_around(v) <= flipped)) {
+            if (after < before &&
+                (may_flip || (flipped_around(v) <= flipped && flat_around(v) <= flat))) {
                 return 1 - after / before;
             }
         }
@@ -566,9 +727,14 @@ private:
     int turn_ = 0;
     int turns_in_vain_ = 0;
     Index least_flipped_ = kNone;
-    // While neighbourhoods are placed anew: the next quad, and the next number of rings around it.
+    // While all unfold.
+    std::vector<Index> free_;
+    std::vector<Index> around_free_;
+    Index least_unfolded_ = kNone;
+    std::pair<std::vector<SurfacePoint>, std::vector<Vec3>> unfolded_;
+    // While neighbourhoods are placed anew: the next quad, and in which way.
     Index reopened_quad_ = 0;
-    std::size_t reopened_size_ = 0;
+    std::size_t reopening_ = 0;
     bool has_reopened_ = false;
     std::size_t reopening_moves_ = 0;
     std::vector<bool> is_active_;                   // per vertex, while smoothing

@@ -10,9 +10,11 @@ namespace layout_embedding {
 /// Moves the vertices of a quad mesh that are not fixed, on the target and one after the other: a
 /// few rounds towards the means of their neighbours, where the smallest scaled Jacobian of the
 /// quads around stays above 0.5 or grows; then 2 * `rounds` rounds, or until they hardly move, to
-/// lower an energy that grows as corners become flat. Then bad quads are untangled and the worst
-/// ones mended, by turns, for as long as fewer stay flipped, and neighbourhoods of what is flipped
-/// even so are placed anew where that helps.
+/// lower an energy that grows as corners become flat. Where quads are flipped then, all vertices
+/// lower it together, for as many rounds at most (apps/quad_unfolding.hh); bad quads are untangled
+/// and the worst ones mended, by turns, for as long as fewer stay flipped; and neighbourhoods of
+/// what is flipped even so are placed anew where that helps, after which `rounds` rounds even them
+/// out.
 class QuadRelaxation {
 public:
     /// `target` and `mesh` must outlive this; `fixed` says so of every vertex.

@@ -18,7 +18,7 @@ namespace {
 
 /// Off-centers are placed for angles larger than the wanted ones by this factor.
 constexpr double kAmbition = 1.3;
-constexpr double kRounding = 1e-9;
+constexpr double kAngleRounding = 1e-9;
 constexpr int kMostSteps = 200;
 constexpr int kMostDivisions = 5;
 /// Vertices that may be added for each one that the cut added.
@@ -161,7 +161,7 @@ private:
             }
         }
         const double wanted = place == kNone ? 0 : wanted_.tangent_in(refined_.triangle_faces[t]);
-        if (least < wanted * (1 - kRounding)) {
+        if (least < wanted * (1 - kAngleRounding)) {
             queue_.push({wanted / least, t, place, versions_[t]});
         }
     }
@@ -380,7 +380,7 @@ private:
         const Corner right = corner_at(position(d), position(g), position(h));
         const double sum = left.dot * right.cross + right.dot * left.cross;
         const double size = (std::abs(left.dot) + left.cross) * (std::abs(right.dot) + right.cross);
-        return sum >= -kRounding * size;
+        return sum >= -kAngleRounding * size;
     }
 
     /// The edge from a to b, with the apexes c of h and d beyond, becomes one from d to c.

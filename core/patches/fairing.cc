@@ -21,7 +21,7 @@ constexpr double kLeastGain = 0.01;
 /// Paths between patches of at least this quotient stay as they are: traces would only make them
 /// turn more.
 constexpr double kRoundEnough = 0.3;
-constexpr double kRounding = 1e-9;
+constexpr double kQuotientRounding = 1e-9;
 /// Traces are jagged where the target's triangles are few or thin. So often all crossings are moved
 /// to shorten the two segments at them, which takes waves of a few edges away and leaves longer
 /// ones, as long as the smallest quotient stays this high.
@@ -334,7 +334,7 @@ void Fairing::compare()
     }
     // Gaps that were made for others may cost a thin patch more than was gained.
     if (!any || !next ||
-        worst_of(next->quotients) < (1 - kRounding) * worst_of(state_->quotients)) {
+        worst_of(next->quotients) < (1 - kQuotientRounding) * worst_of(state_->quotients)) {
         return;
     }
     state_ = std::move(next);

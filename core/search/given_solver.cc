@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "surface/class_enumeration.hh"
 #include "surface/hole_guard.hh"
 #include "surface/stretch.hh"
 

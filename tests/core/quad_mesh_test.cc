@@ -24,11 +24,13 @@ struct Embedded {
     RefinedMesh refined;
 };
 
-/// A checked embedding, not necessarily a short one; nothing where the search finds none.
-std::optional<Embedded> embed(const EmbeddingProblem& problem)
+/// A checked embedding, by default not necessarily a short one; nothing where the search finds
+/// none.
+std::optional<Embedded> embed(const EmbeddingProblem& problem,
+                              Algorithm algorithm = Algorithm::praun)
 {
     EmbedOptions options;
-    options.algorithm = Algorithm::praun;
+    options.algorithm = algorithm;
     EmbedJob job(problem, options);
     while (job.step()) {
     }
@@ -381,6 +383,46 @@ TEST_P(QuadsOfShapes, have_no_flipped_quads_and_the_same_connectivity_for_all_me
 INSTANTIATE_TEST_SUITE_P(Classes, QuadsOfShapes,
                          testing::Values("quadruped", "hand", "bust", "machine_part", "cut_hand",
                                          "fish", "bird", "face", "cup"),
+                         [](const auto& parameter) { return parameter.param; });
+
+class DefaultQuadsOfShapes : public testing::TestWithParam<std::string> {};
+
+TEST_P(DefaultQuadsOfShapes, are_none_of_them_flipped)
+{
+    // Classes whose templates leave thin patches, with as many quads as there are by default.
+    const shapes::ShapeClass& shape_class = *shapes::find_shape_class(GetParam());
+    std::shared_ptr<const Layout> layout;
+    QuadOptions options;
+    std::vector<std::array<Index, 4>> first;
+    for (const Index member : {0U, 1U}) {
+        SCOPED_TRACE(member);
+        const auto shape = shapes::make_shape(shape_class, member, {2000, 0});
+        ASSERT_TRUE(shape.ok()) << shape.error().message;
+        const auto target = std::make_shared<const TriangleMesh>(shape->mesh);
+        if (!layout) {
+            const auto made = template_layout(*target, shape->landmarks, {true});
+            ASSERT_TRUE(made.ok()) << made.error().message;
+            layout = std::make_shared<const Layout>(
+                Layout::from_polygons(made->mesh, "the template").value());
+        }
+        const auto problem = make_problem(layout, target, shape->landmarks);
+        ASSERT_TRUE(problem.ok()) << problem.error().message;
+        const auto embedded = embed(*problem, Algorithm::exact);
+        ASSERT_TRUE(embedded.has_value());
+        const auto quads = make_quad_mesh(*layout, *target, embedded->refined, options);
+        ASSERT_TRUE(quads.ok()) << quads.error().message;
+        expect_sound(*embedded, *quads);
+        EXPECT_EQ(quads->statistics.flipped, 0U);
+        if (options.segments_as.empty()) {
+            options.segments_as = quads->segments;
+            first = quads->quads;
+        }
+        EXPECT_EQ(quads->quads, first);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Classes, DefaultQuadsOfShapes,
+                         testing::Values("quadruped", "plane", "vase", "pretzel"),
                          [](const auto& parameter) { return parameter.param; });
 
 }  // namespace
