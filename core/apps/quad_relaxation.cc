@@ -25,16 +25,18 @@ struct Attempt {
     /// Moves what is around a landmark back onto it first; for quads at landmarks.
     bool centres = false;
 };
-constexpr std::array<Attempt, 26> kAttempts{{
-    {4, Opening::soften, true},  {8, Opening::soften, true}, {4, Opening::inflate, true},
-    {8, Opening::inflate, true}, {2, Opening::unfold},       {2, Opening::soften},
-    {3, Opening::unfold},        {3, Opening::inflate},      {1, Opening::spread},
-    {2, Opening::spread},        {2, Opening::inflate},      {2, Opening::lower},
-    {5, Opening::unfold},        {5, Opening::soften},       {5, Opening::inflate},
-    {3, Opening::spread},        {4, Opening::lower},        {8, Opening::unfold},
-    {8, Opening::soften},        {8, Opening::inflate},      {5, Opening::spread},
-    {8, Opening::spread},        {8, Opening::lower},        {12, Opening::unfold},
-    {12, Opening::inflate},      {16, Opening::unfold},
+constexpr std::array<Attempt, 31> kAttempts{{
+    {4, Opening::soften, true},   {8, Opening::soften, true}, {4, Opening::inflate, true},
+    {8, Opening::inflate, true},  {2, Opening::unfold},       {2, Opening::soften},
+    {3, Opening::unfold},         {3, Opening::inflate},      {1, Opening::spread},
+    {2, Opening::spread},         {2, Opening::inflate},      {2, Opening::lower},
+    {5, Opening::unfold},         {5, Opening::soften},       {5, Opening::inflate},
+    {3, Opening::spread},         {4, Opening::lower},        {8, Opening::unfold},
+    {8, Opening::soften},         {8, Opening::inflate},      {5, Opening::spread},
+    {8, Opening::spread},         {8, Opening::lower},        {12, Opening::unfold},
+    {12, Opening::inflate},       {16, Opening::unfold},      {12, Opening::soften, true},
+    {12, Opening::inflate, true}, {16, Opening::soften},      {16, Opening::inflate},
+    {24, Opening::unfold},
 }};
 
 }  // namespace
