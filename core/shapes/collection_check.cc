@@ -8,7 +8,7 @@
 
 #include "apps/embed_job.hh"
 #include "base/random.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 #include "patches/patch_shape.hh"
 
 namespace layout_embedding::shapes {

@@ -10,7 +10,7 @@
 #include "apps/embed_job.hh"
 #include "apps/quad_mesh.hh"
 #include "apps/surface_map.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 
 namespace layout_embedding::shapes {
 namespace {
@@ -78,7 +78,7 @@ bool check_template(const ShapeClass& shape_class, Index from,
         std::printf("%s\n", source.error().message.c_str());
         return false;
     }
-    const auto made = template_layout(TriangleMesh(source->mesh), source->landmarks, {true});
+    const auto made = template_layout(TriangleMesh(source->mesh), source->landmarks, {.quads = true});
     if (!made) {
         std::printf("%s: %s\n", shape_class.name.c_str(), made.error().message.c_str());
         return false;

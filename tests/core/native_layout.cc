@@ -8,7 +8,7 @@
 #include <string>
 
 #include "layout/landmark_reader.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/mesh_writer.hh"
 #include "mesh/validation.hh"
@@ -31,7 +31,7 @@ int run(char** arguments)
         return fail(landmarks.error());
     }
     const auto layout = template_layout(TriangleMesh(*mesh), landmarks->vertices,
-                                        {std::string(arguments[3]) == "quads"});
+                                        {.quads = std::string(arguments[3]) == "quads"});
     if (!layout) {
         return fail(layout.error());
     }

@@ -10,7 +10,7 @@
 #include "apps/embed_job.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
 #include "shapes/shape.hh"
@@ -351,7 +351,7 @@ TEST_P(QuadsOfShapes, have_no_flipped_quads_and_the_same_connectivity_for_all_me
         ASSERT_TRUE(shape.ok()) << shape.error().message;
         const auto target = std::make_shared<const TriangleMesh>(shape->mesh);
         if (!layout) {
-            const auto made = template_layout(*target, shape->landmarks, {true});
+            const auto made = template_layout(*target, shape->landmarks, {.quads = true});
             ASSERT_TRUE(made.ok()) << made.error().message;
             layout = std::make_shared<const Layout>(
                 Layout::from_polygons(made->mesh, "the template").value());

@@ -12,7 +12,7 @@
 #include "geodesic_reference.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
 #include "patches/patch_shape.hh"

@@ -8,7 +8,7 @@
 #include "apps/embed_job.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 #include "mesh/mesh_writer.hh"
 #include "mesh/triangle_mesh.hh"
 #include "mesh/validation.hh"

@@ -11,7 +11,7 @@
 #include "base/random.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 #include "maps/map_checker.hh"
 #include "mesh/mesh_reader.hh"
 #include "test_data.hh"

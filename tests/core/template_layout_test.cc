@@ -1,4 +1,4 @@
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 
 #include <algorithm>
 #include <filesystem>
@@ -95,7 +95,7 @@ std::optional<EmbeddingProblem> expect_template(const TargetPointer& target,
 }
 
 TemplateLayout made(const TargetPointer& target, const std::vector<Index>& landmarks,
-                    TemplateOptions options = {})
+                    const TemplateOptions& options = {})
 {
     auto result = template_layout(*target, landmarks, options);
     EXPECT_TRUE(result.ok()) << result.error().message;
@@ -384,7 +384,7 @@ TEST(TemplateLayout, quads_are_pairs_of_its_triangles)
             SCOPED_TRACE(name + ", " + std::to_string(n) + " landmarks");
             const auto landmarks = farthest_points(*target, n);
             const PolygonMesh plain = made(target, landmarks).mesh;
-            const PolygonMesh merged = made(target, landmarks, {true}).mesh;
+            const PolygonMesh merged = made(target, landmarks, {.quads = true}).mesh;
             const auto problem = expect_template(target, landmarks, merged);
             ASSERT_TRUE(problem.has_value());
             for (Index v = 0; v < n; ++v) {
@@ -499,7 +499,7 @@ TEST(TemplateLayout, embeds_where_it_comes_from)
                              (quads ? ", quads" : ""));
                 const auto landmarks = farthest_points(*target, n);
                 auto problem =
-                    expect_template(target, landmarks, made(target, landmarks, {quads}).mesh);
+                    expect_template(target, landmarks, made(target, landmarks, {.quads = quads}).mesh);
                 ASSERT_TRUE(problem.has_value());
                 EXPECT_TRUE(embeds(std::move(*problem)));
                 ++instances;
@@ -557,7 +557,7 @@ TEST(RealMesh, every_template_layout_is_reached)
             }
             const TemplateLayout layout = made(target, landmarks);
             expect_template(target, landmarks, layout.mesh);
-            const PolygonMesh quads = made(target, landmarks, {true}).mesh;
+            const PolygonMesh quads = made(target, landmarks, {.quads = true}).mesh;
             expect_template(target, landmarks, quads);
             EXPECT_LE(quads.face_count(), layout.mesh.face_count());
             ++total;
@@ -590,7 +590,7 @@ TEST(RealMesh, template_layouts_embed_where_they_come_from)
                 SCOPED_TRACE(file.filename().string() + ", " + std::to_string(n) + " landmarks");
                 const auto landmarks = farthest_points(*target, n);
                 auto problem =
-                    expect_template(target, landmarks, made(target, landmarks, {quads}).mesh);
+                    expect_template(target, landmarks, made(target, landmarks, {.quads = quads}).mesh);
                 ASSERT_TRUE(problem.has_value());
                 double ratio = std::numeric_limits<double>::infinity();
                 ++total;

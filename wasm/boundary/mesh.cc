@@ -5,7 +5,7 @@
 #include "layout/embedding_problem.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
-#include "layout/template_layout.hh"
+#include "apps/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/mesh_writer.hh"
 #include "mesh/repair.hh"
@@ -346,14 +346,14 @@ std::uint32_t boundary_landmarks_note(std::uint32_t landmarks, std::size_t place
 
 /// Makes a template layout of a target and landmarks on it, with quads unless `quads` is 0. Returns
 /// a mesh, and views as doubles how many vertices were removed by collapses, after edge flips, and
-/// without regard to shapes.
+/// without regard to shapes, and how many edges were flipped since the other diagonal is shorter.
 BOUNDARY_EXPORT(boundary_template_create)
 std::uint32_t boundary_template_create(std::uint32_t target, const Index* landmarks,
                                        std::size_t landmark_count, std::uint32_t quads)
 {
     return guarded(0U, [&] {
         auto made = template_layout(*handles<TargetObject>().get(target).target,
-                                    {landmarks, landmark_count}, {quads != 0});
+                                    {landmarks, landmark_count}, {.quads = quads != 0});
         if (!made) {
             set_error(made.error());
             return 0U;
@@ -361,7 +361,8 @@ std::uint32_t boundary_template_create(std::uint32_t target, const Index* landma
         const DecimationCounts& counts = made->counts;
         set_owned_view(std::vector<double>{static_cast<double>(counts.collapses),
                                            static_cast<double>(counts.after_flips),
-                                           static_cast<double>(counts.in_any_shape)});
+                                           static_cast<double>(counts.in_any_shape),
+                                           static_cast<double>(made->flips)});
         return handles<MeshObject>().add(
             std::make_unique<MeshObject>(MeshObject{std::move(made->mesh), {}, {}, {}}));
     });

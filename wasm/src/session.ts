@@ -534,11 +534,12 @@ export class Session implements EmbeddingSession {
     /** The template layout that the last call made and shows the counts of. */
     private takeTemplate(mesh: Handle): Omit<TemplateLayout, "landmarks" | "notes"> {
         const { core } = this;
-        const [collapses = 0, afterFlips = 0, inAnyShape = 0] = core.viewedDoubles();
+        const [collapses = 0, afterFlips = 0, inAnyShape = 0, flips = 0] = core.viewedDoubles();
         try {
             core.call("boundary_mesh_write_obj", mesh);
             const obj = core.viewedBytes();
-            return { ...arraysOf(core, mesh), obj, removed: { collapses, afterFlips, inAnyShape } };
+            const removed = { collapses, afterFlips, inAnyShape };
+            return { ...arraysOf(core, mesh), obj, removed, flips };
         } finally {
             core.destroy(mesh);
         }

@@ -158,11 +158,24 @@ Figure spectacles_figure(Index member)
         figure.landmark(side_name(side, "temple_middle"), temple.point(0, 0, -0.6 * l), temple.y());
         figure.landmark(side_name(side, "hinge"), temple.point(0, 0, 0),
                         temple.direction(side, 0.2, 0.4));
-        figure.landmark(side_name(side, "rim_top"), at(90), rim.y());
-        figure.landmark(side_name(side, "rim_bottom"), at(270), -rim.y());
-        figure.landmark(side_name(side, "rim_outer"), at(330), rim.direction(side, -0.3, 0));
-        figure.landmark(side_name(side, "rim_inner"), at(180), rim.direction(side, 0, 0));
-        figure.landmark(side_name(side, "rim_front"), at(225), rim.z());
+        // Around each rim, in turn on its outside and towards the lens: with fewer, edges of a layout
+        // would have to lead all the way around the rims, since no two may join the same landmarks.
+        const struct {
+            const char* outside;
+            const char* inside;
+            double angle;
+        } places[] = {{"rim_top", "lens_top", 90},
+                      {"rim_outer", "lens_outer", 330},
+                      {"rim_bottom", "lens_bottom", 270},
+                      {"rim_nose", "lens_nose", 200}};
+        for (const auto& [outside, inside, angle] : places) {
+            const Vec3 out =
+                rim.direction(side * glasses.width * cosine(angle), glasses.height * sine(angle), 0)
+                    .normalized();
+            figure.landmark(side_name(side, outside), at(angle), out);
+            figure.landmark(side_name(side, inside), at(angle), -out);
+        }
+        figure.landmark(side_name(side, "rim_front"), at(235), rim.z());
     }
     const double y = glasses.bridge_height;
     const double half = 0.5 * glasses.bridge + 0.8 * r + 0.05;
@@ -225,6 +238,9 @@ Figure pretzel_figure(Index member)
         figure.landmark(side_name(side, "loop_outer"), at(0.98, 0.36, 0), {side, 0.1, 0});
         figure.landmark(side_name(side, "loop_inner"), at(0.98, 0.36, 0), {-side, -0.1, 0});
         figure.landmark(side_name(side, "loop_top"), at(0.66, 0.8, 0), {0, 1, 0});
+        figure.landmark(side_name(side, "loop_under_top"), at(0.66, 0.8, 0), {0, -1, 0});
+        figure.landmark(side_name(side, "arm_upper"), at(0.26, 0.6, 0.3 * z), {-side, 0.7, 0});
+        figure.landmark(side_name(side, "arm_lower"), at(0.26, 0.6, 0.3 * z), {side, -0.7, 0});
         figure.landmark(side_name(side, "loop_front"), at(0.86, -0.24, 0), {0, 0, 1});
         figure.landmark(side_name(side, "loop_back"), at(0.86, -0.24, 0), {0, 0, -1});
     }

@@ -33,6 +33,7 @@ export async function runLayout(command: LayoutCommand): Promise<Outcome> {
             ...faces,
             landmarks: Array.from(layout.landmarks),
             removed: layout.removed,
+            flips: layout.flips,
             notes: layout.notes,
         },
     };
@@ -60,6 +61,7 @@ function summaryText(
         `layout of ${String(layout.positions.length / 3)} vertices, ${faces.join(" and ")}`,
         `removed: ${String(collapses)} vertices by collapses, ${String(afterFlips)} after edge ` +
             `flips, ${String(inAnyShape)} without regard to shapes`,
+        `flipped: ${String(layout.flips)} edges whose other diagonal is shorter`,
         `written: ${command.output}`,
     ].join("\n");
 }

@@ -201,6 +201,11 @@ export interface TemplateLayout {
         /** Vertices removed with no regard to the shape of faces. */
         inAnyShape: number;
     };
+    /**
+     * Edges flipped afterwards: other paths would have forced theirs away from the shortest one,
+     * and the other diagonal is shorter.
+     */
+    flips: number;
     /** What deserves attention in target or landmarks. */
     notes: Notes;
 }

@@ -1,4 +1,4 @@
-#include "layout/template_layout.hh"
+#include "layout/decimated_layout.hh"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include "base/random.hh"
 #include "layout/embedding_problem.hh"
 #include "layout/layout.hh"
-#include "layout/quad_pairing.hh"
 
 namespace layout_embedding {
 namespace {
@@ -44,9 +43,9 @@ std::vector<std::vector<Index>> boundary_loops(const TriangleMesh& mesh)
 }
 
 /// A target on its way to a layout.
-class TemplateMaker {
+class LayoutDecimation {
 public:
-    TemplateMaker(const TriangleMesh& target, std::span<const Index> landmarks)
+    LayoutDecimation(const TriangleMesh& target, std::span<const Index> landmarks)
         : target_(target), landmarks_(landmarks), ids_(target.vertex_count(), kNone)
     {
         for (Index i = 0; i < landmarks.size(); ++i) {
@@ -65,7 +64,7 @@ public:
         }
     }
 
-    Result<TemplateLayout> run()
+    Result<DecimatedLayout> run()
     {
         if (Status enough = check_counts(); !enough) {
             return enough.error();
@@ -84,7 +83,7 @@ public:
             holes.push_back(v);
         }
         const auto wanted = static_cast<Index>(landmarks_.size() + open_loops_.size());
-        TemplateLayout result;
+        DecimatedLayout result;
         Decimation decimation(mesh, std::move(kept), holes);
         decimation.run(wanted, DecimationEffort::any_shape);
         Random random(1);
@@ -146,9 +145,9 @@ private:
     }
 
     /// The only layout of a sphere with three vertices; a tetrahedron cannot be collapsed to it.
-    TemplateLayout two_triangles() const
+    DecimatedLayout two_triangles() const
     {
-        TemplateLayout result;
+        DecimatedLayout result;
         for (const Index v : landmarks_) {
             result.mesh.positions.push_back(target_.position(v));
         }
@@ -219,8 +218,8 @@ private:
 
 }  // namespace
 
-Result<TemplateLayout> template_layout(const TriangleMesh& target, std::span<const Index> landmarks,
-                                       const TemplateOptions& options)
+Result<DecimatedLayout> decimated_layout(const TriangleMesh& target,
+                                         std::span<const Index> landmarks)
 {
     if (Status valid = check_landmark_vertices(target, landmarks); !valid) {
         return valid.error();
@@ -230,12 +229,9 @@ Result<TemplateLayout> template_layout(const TriangleMesh& target, std::span<con
                           "a layout cannot have only " + counted(landmarks.size(), "landmark"),
                           {{"landmarks", static_cast<std::int64_t>(landmarks.size())}});
     }
-    auto result = TemplateMaker(target, landmarks).run();
+    auto result = LayoutDecimation(target, landmarks).run();
     if (!result) {
         return result;
-    }
-    if (options.quads) {
-        result->mesh = merged_into_quads(result->mesh);
     }
     // Where holes with few landmarks come close to each other, their loops can meet.
     const auto layout = Layout::from_polygons(result->mesh, "it");

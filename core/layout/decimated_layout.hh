@@ -10,13 +10,9 @@
 
 namespace layout_embedding {
 
-struct TemplateOptions {
-    /// Merges pairs of triangles into well-shaped quads (layout/quad_pairing.hh).
-    bool quads = false;
-};
-
-struct TemplateLayout {
-    /// A valid layout (layout/layout.hh): vertex i is landmark i and lies at its position.
+struct DecimatedLayout {
+    /// A valid layout (layout/layout.hh) of triangles: vertex i is landmark i and lies at its
+    /// position.
     PolygonMesh mesh;
     /// How the other vertices of the target were removed.
     DecimationCounts counts;
@@ -39,7 +35,7 @@ struct TemplateLayout {
 /// tooFewLandmarksForSurface (the genus or the boundary loops admit no triangulation without
 /// parallel edges with so few vertices); templateNotReached (practically only with hardly more
 /// landmarks than that). O(n log n), a few seconds for a million triangles; deterministic.
-Result<TemplateLayout> template_layout(const TriangleMesh& target, std::span<const Index> landmarks,
-                                       const TemplateOptions& options = {});
+Result<DecimatedLayout> decimated_layout(const TriangleMesh& target,
+                                         std::span<const Index> landmarks);
 
 }  // namespace layout_embedding
