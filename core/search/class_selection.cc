@@ -7,12 +7,28 @@
 
 namespace layout_embedding {
 
+namespace {
+
+// Once clauses have had so many units of work, the instance is hard: before, branch and bound waits
+// so many times as long, and from then on it gets so many times as much work as clauses.
+constexpr std::uint64_t kHard = 8'000'000;
+constexpr std::uint64_t kWaitBeforeHard = 8;
+constexpr std::uint64_t kTreeShare = 3;
+// Units of work that clauses or branch and bound get at a time.
+constexpr std::uint64_t kTurn = 50'000;
+// No branch and bound on larger tables.
+constexpr std::uint64_t kMostEntries = 3'000'000;
+
+}  // namespace
+
 ClassSelection::ClassSelection(const Layout& layout, const WalkPool& pool,
-                               std::optional<FaceLoops> faces, std::vector<bool> is_linear)
+                               std::optional<FaceLoops> faces, std::vector<bool> is_linear,
+                               std::uint64_t patience)
     : layout_(layout),
       pool_(pool),
       faces_(std::move(faces)),
       is_linear_(std::move(is_linear)),
+      patience_(patience),
       crossings_(pool),
       sat_(crossings_),
       edges_(layout.edge_count()),
@@ -77,6 +93,18 @@ void ClassSelection::add_class(Index walk)
         sat_.add_clause({WeightedSat::negate(chosen), level(e, pool_.cost(walk))});
     }
     unnoted_.push_back(walk);
+    known_.push_back(walk);
+    for_each_in_wrong_order(walk, [&](Index other) {
+        sat_.add_clause({WeightedSat::negate(chosen), WeightedSat::negate(literal(other))});
+    });
+}
+
+/// Calls `visit` with the known walks that leave a landmark on the boundary on the wrong side of
+/// this one.
+template <typename Visit>
+void ClassSelection::for_each_in_wrong_order(Index walk, const Visit& visit) const
+{
+    const Index e = pool_.layout_edge(walk);
     for (const Index h : {2 * e, 2 * e + 1}) {
         const Index v = layout_.tail(h);
         if (!is_linear_[v]) {
@@ -89,8 +117,7 @@ void ClassSelection::add_class(Index walk)
             for (const Index other : edges_[Layout::edge(g)].walks) {
                 if ((pool_.place(h, walk) < pool_.place(g, other)) !=
                     (layout_.rank(h) < layout_.rank(g))) {
-                    sat_.add_clause(
-                        {WeightedSat::negate(chosen), WeightedSat::negate(literal(other))});
+                    visit(other);
                 }
             }
         }
@@ -103,6 +130,9 @@ void ClassSelection::add_bound(Index layout_edge, std::span<const Index> blocker
     if (bound <= edge.base) {
         return;
     }
+    bounds_.push_back({layout_edge,
+                       {blockers.begin(), blockers.end()},
+                       bound == kInfiniteLength ? bound : bound - edge.base});
     std::vector<Literal> clause;
     for (const Index walk : blockers) {
         add_class(walk);
@@ -125,6 +155,15 @@ void ClassSelection::forbid(std::span<const Index> walks)
         clause.push_back(WeightedSat::negate(literal(walk)));
     }
     sat_.add_clause(clause);
+    nogoods_.push_back({kNone, {walks.begin(), walks.end()}, 0});
+}
+
+void ClassSelection::lower_upper_bound(Length cost)
+{
+    sat_.lower_upper_bound(cost);
+    if (tree_) {
+        tree_->lower_upper_bound(cost - std::min(cost, base_));
+    }
 }
 
 ClassSelection::Outcome ClassSelection::run(WorkBudget& budget)
@@ -134,7 +173,10 @@ ClassSelection::Outcome ClassSelection::run(WorkBudget& budget)
     }
     for (;;) {
         budget.charge(std::exchange(uncharged_, 0));
-        const Outcome outcome = sat_.run(budget);
+        const Outcome outcome = run_engine(budget);
+        if (outcome == Outcome::running && !budget.is_spent()) {
+            continue;  // the other one's turn
+        }
         if (outcome != Outcome::satisfied && outcome != Outcome::optimal) {
             return outcome;
         }
@@ -147,10 +189,191 @@ ClassSelection::Outcome ClassSelection::run(WorkBudget& budget)
     }
 }
 
+/// Clauses and branch and bound take turns.
+ClassSelection::Outcome ClassSelection::run_engine(WorkBudget& budget)
+{
+    if (turn_left_ == 0) {
+        is_trees_turn_ = is_trees_turn();
+        turn_left_ = kTurn;
+    }
+    WorkBudget turn(std::min(budget.left(), turn_left_));
+    const Outcome outcome = is_trees_turn_ ? run_tree(turn) : sat_.run(turn);
+    budget.charge(turn.spent());
+    turn_left_ -= std::min(turn_left_, turn.spent());
+    (is_trees_turn_ ? tree_work_ : sat_work_) += turn.spent();
+    all_sat_work_ += is_trees_turn_ ? 0 : turn.spent();
+    choice_is_trees_ = is_trees_turn_;
+    if (outcome != Outcome::running && is_trees_turn_) {
+        sat_.interrupt();  // something may be added to it
+    }
+    return outcome;
+}
+
+/// Branch and bound is up where clauses have not told anything for a while.
+bool ClassSelection::is_trees_turn()
+{
+    if (knowledge_ != known_.size() + bounds_.size()) {
+        knowledge_ = known_.size() + bounds_.size();
+        sat_work_ = 0;
+        tree_work_ = 0;
+    }
+    const std::uint64_t wait = all_sat_work_ < kHard ? kWaitBeforeHard * patience_ : patience_;
+    return sat_.upper_bound() != kInfiniteLength && sat_work_ >= wait &&
+           (patience_ == 0 || tree_work_ < kTreeShare * (sat_work_ - wait)) &&
+           (!tree_ || tree_->table_size() < kMostEntries);
+}
+
+ClassSelection::Outcome ClassSelection::run_tree(WorkBudget& budget)
+{
+    tell_tree();
+    budget.charge(std::exchange(uncharged_, 0));
+    const auto outcome = tree_->run(budget);
+    std::vector<Index> walks;
+    std::vector<Index> rests;
+    tree_->take_ruled_out(walks, rests);
+    if (!walks.empty() || !rests.empty()) {
+        sat_.interrupt();
+    }
+    for (const Index walk : walks) {
+        sat_.add_clause({WeightedSat::negate(literals_[walk])});
+    }
+    for (const Index e : rests) {
+        if (edges_[e].rest != kTrue) {
+            sat_.add_clause({WeightedSat::negate(edges_[e].rest)});
+        }
+    }
+    switch (outcome) {
+        case ChoiceTree::Outcome::raised:
+            return Outcome::raised;
+        case ChoiceTree::Outcome::satisfied:
+            return Outcome::satisfied;
+        case ChoiceTree::Outcome::optimal:
+            return Outcome::optimal;
+        case ChoiceTree::Outcome::exceeded:
+            return Outcome::exceeded;
+        case ChoiceTree::Outcome::running:
+            break;
+    }
+    return Outcome::running;
+}
+
+/// Tells branch and bound what has become known since the last time.
+void ClassSelection::tell_tree()
+{
+    if (faces_) {
+        note_walks();
+    }
+    if (!tree_) {
+        tree_ = std::make_unique<ChoiceTree>(static_cast<Index>(edges_.size()),
+                                             sat_.upper_bound() - base_);
+        triangles_.assign(layout_.face_count(), kNone);
+        for (Index f = 0; faces_ && f < layout_.face_count(); ++f) {
+            const auto halfedges = layout_.face_halfedges(f);
+            if (halfedges.size() == 3 && faces_->demands(f)) {
+                triangles_[f] = tree_->add_triangle({Layout::edge(halfedges[0]),
+                                                     Layout::edge(halfedges[1]),
+                                                     Layout::edge(halfedges[2])});
+                tree_->add_tuple(triangles_[f], {kNone, kNone, kNone});
+            }
+        }
+    }
+    if (told_classes_ < known_.size() || told_bounds_ < bounds_.size() ||
+        told_nogoods_ < nogoods_.size()) {
+        tree_->expect_news();
+    }
+    while (told_classes_ < known_.size()) {
+        tell_tree_of(known_[told_classes_++]);
+    }
+    for (; told_bounds_ < bounds_.size(); ++told_bounds_) {
+        const Told& told = bounds_[told_bounds_];
+        tree_->add_bound(told.layout_edge, told.walks, told.cost);
+    }
+    for (; told_nogoods_ < nogoods_.size(); ++told_nogoods_) {
+        tree_->forbid(nogoods_[told_nogoods_].walks);
+    }
+}
+
+void ClassSelection::tell_tree_of(Index walk)
+{
+    const Index e = pool_.layout_edge(walk);
+    tree_->add_class(e, walk, pool_.cost(walk) - edges_[e].base);
+    if (faces_) {
+        tell_tree_of_triangles(walk);
+    }
+    if (!tree_->knows(walk)) {
+        return;
+    }
+    const auto exclude = [&](Index other) {
+        if (tree_->knows(other)) {
+            tree_->exclude(walk, other);
+        }
+        return true;
+    };
+    pool_.crossing(walk).all_of(exclude);
+    for_each_in_wrong_order(walk, exclude);
+}
+
+/// Which classes triangles allow beside a new one: of two edges' classes, the third edge's that
+/// completes them, or its rest while that one is not known.
+void ClassSelection::tell_tree_of_triangles(Index walk)
+{
+    const Index e = pool_.layout_edge(walk);
+    for (const Index h : {2 * e, 2 * e + 1}) {
+        const Index face = layout_.face(h);
+        if (face == kNone || triangles_[face] == kNone) {
+            continue;
+        }
+        const Index triangle = triangles_[face];
+        const auto waiting = tuples_.extract(faces_->side(h, walk));
+        if (!waiting.empty()) {
+            for (const Index tuple : waiting.mapped()) {
+                tree_->remove_tuple(triangle, tuple);
+            }
+        }
+        if (!tree_->knows(walk)) {
+            continue;
+        }
+        const auto halfedges = layout_.face_halfedges(face);
+        const auto place = static_cast<std::size_t>(
+            std::find(halfedges.begin(), halfedges.end(), h) - halfedges.begin());
+        std::array<Index, 3> walks{kNone, kNone, kNone};
+        walks[place] = walk;
+        tree_->add_tuple(triangle, walks);
+        for (const std::size_t step : {1, 2}) {
+            const std::size_t beside = (place + step) % 3;
+            const std::size_t third = (place + 3 - step) % 3;
+            for (const Index other : edges_[Layout::edge(halfedges[beside])].walks) {
+                if (!tree_->knows(other) || !can_go_together(walk, other)) {
+                    continue;
+                }
+                uncharged_ += 4;
+                walks[beside] = other;
+                const Index side = faces_->completion(face, walks, third);
+                const Index completion = faces_->walk(side);
+                if (completion == kNone) {
+                    tuples_[side].push_back(tree_->add_tuple(triangle, walks));
+                } else if (step == 1 && tree_->knows(completion) &&
+                           can_go_together(walk, completion) &&
+                           can_go_together(other, completion)) {
+                    walks[third] = completion;
+                    if (faces_->closes(face, walks)) {
+                        tree_->add_tuple(triangle, walks);
+                    }
+                    walks[third] = kNone;
+                }
+            }
+            walks[beside] = kNone;
+        }
+    }
+}
+
 void ClassSelection::read_choices()
 {
     for (Index e = 0; e < edges_.size(); ++e) {
-        choices_[e] = kNone;
+        choices_[e] = choice_is_trees_ ? tree_->choice(e) : kNone;
+        if (choice_is_trees_) {
+            continue;
+        }
         for (const Index walk : edges_[e].walks) {
             if (sat_.holds(literals_[walk]) &&
                 (choices_[e] == kNone || pool_.cost(walk) < pool_.cost(choices_[e]))) {
@@ -172,6 +395,7 @@ bool ClassSelection::is_wrong(const std::array<Index, 3>& halfedges,
 void ClassSelection::forbid_order(const std::array<Index, 3>& walks)
 {
     if (forbidden_orders_.insert(walks).second) {
+        nogoods_.push_back({kNone, {walks.begin(), walks.end()}, 0});
         sat_.add_clause({WeightedSat::negate(literals_[walks[0]]),
                          WeightedSat::negate(literals_[walks[1]]),
                          WeightedSat::negate(literals_[walks[2]])});
@@ -254,8 +478,15 @@ bool ClassSelection::add_violated_faces()
                 add_row(f, place, walks[place]);
             }
         }
-        if (!is_excluded) {
+        if (!is_excluded && !choice_is_trees_) {
             forbid(walks);  // the assignment holds several classes of an edge to be chosen
+        }
+        if (open_count == 0) {
+            nogoods_.push_back({kNone, walks, 0});
+        } else {
+            std::erase(walks, kNone);
+            bounds_.push_back(
+                {Layout::edge(layout_.face_halfedges(f)[open]), walks, kInfiniteLength});
         }
     }
     return found;

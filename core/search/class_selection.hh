@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "base/types.hh"
 #include "layout/layout.hh"
+#include "search/choice_tree.hh"
 #include "search/face_loops.hh"
 #include "search/weighted_sat.hh"
 #include "search/work_budget.hh"
@@ -32,8 +34,10 @@ public:
 
     /// Keeps references. `is_linear`: per layout vertex, whether the orders of the edges there are
     /// linear, as they are at landmarks on the target's boundary. `faces` may be missing.
+    /// `patience`: units of work that clauses get for what is known before branch and bound begins;
+    /// 0 for branch and bound alone, once there is an upper bound.
     ClassSelection(const Layout& layout, const WalkPool& pool, std::optional<FaceLoops> faces,
-                   std::vector<bool> is_linear);
+                   std::vector<bool> is_linear, std::uint64_t patience);
 
     /// Every class of the edge costs at least this. Once per edge, before anything else.
     void set_base(Index layout_edge, Length bound);
@@ -43,7 +47,7 @@ public:
     /// walks `blockers` of other edges are known.
     void add_bound(Index layout_edge, std::span<const Index> blockers, Length bound);
     /// Only choices cheaper than this matter. Only ever lowered.
-    void lower_upper_bound(Length cost) { sat_.lower_upper_bound(cost); }
+    void lower_upper_bound(Length cost);
     /// Not all of these classes can be chosen together.
     void forbid(std::span<const Index> walks);
 
@@ -53,7 +57,11 @@ public:
 
     /// After `satisfied` or `optimal`: the class chosen, kNone for the rest.
     Index choice(Index layout_edge) const { return choices_[layout_edge]; }
-    Length lower_bound() const { return sat_.lower_bound(); }
+    Length lower_bound() const
+    {
+        return tree_ ? std::max(sat_.lower_bound(), base_ + tree_->lower_bound())
+                     : sat_.lower_bound();
+    }
     /// Known classes.
     Index class_count() const { return class_count_; }
     const WeightedSat& sat() const { return sat_; }
@@ -82,6 +90,14 @@ private:
     bool add_completion(Index face, std::vector<Index>& walks, std::size_t place);
     bool can_go_together(Index a, Index b) const;
     void note_walks();
+    bool is_trees_turn();
+    Outcome run_engine(WorkBudget& budget);
+    Outcome run_tree(WorkBudget& budget);
+    void tell_tree();
+    void tell_tree_of(Index walk);
+    void tell_tree_of_triangles(Index walk);
+    template <typename Visit>
+    void for_each_in_wrong_order(Index walk, const Visit& visit) const;
 
     /// Walks that cross.
     struct Crossings : Exclusions {
@@ -94,6 +110,7 @@ private:
     const WalkPool& pool_;
     std::optional<FaceLoops> faces_;
     std::vector<bool> is_linear_;
+    std::uint64_t patience_;
     Crossings crossings_;
     WeightedSat sat_;
     std::vector<Edge> edges_;
@@ -117,6 +134,33 @@ private:
     std::unordered_map<Index, std::vector<std::array<Index, 2>>> waiting_;  // never iterated
     std::uint64_t uncharged_ = 0;
     Index class_count_ = 0;
+
+    // Branch and bound, once the clauses have turned out to be hard. What it is told, in order: of
+    // known classes, of bounds for rests, and of classes that cannot be chosen together, where
+    // `layout_edge` says that with them that edge's rest is not either.
+    struct Told {
+        Index layout_edge;
+        std::vector<Index> walks;
+        Length cost;
+    };
+    std::unique_ptr<ChoiceTree> tree_;
+    std::vector<Index> known_;  // classes, in the order in which they became known
+    std::vector<Told> bounds_;
+    std::vector<Told> nogoods_;
+    std::size_t told_classes_ = 0;
+    std::size_t told_bounds_ = 0;
+    std::size_t told_nogoods_ = 0;
+    std::vector<Index> triangles_;  // per face; kNone
+    /// Per side of a face that no class known to the tree is on: tuples with an edge's rest that
+    /// would complete it.
+    std::unordered_map<Index, std::vector<Index>> tuples_;  // never iterated
+    std::uint64_t sat_work_ = 0;  // since something became known
+    std::uint64_t tree_work_ = 0;
+    std::uint64_t all_sat_work_ = 0;
+    std::size_t knowledge_ = 0;
+    std::uint64_t turn_left_ = 0;
+    bool is_trees_turn_ = false;
+    bool choice_is_trees_ = false;
 };
 
 }  // namespace layout_embedding

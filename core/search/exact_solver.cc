@@ -47,7 +47,7 @@ ExactSolver::ExactSolver(const EmbeddingProblem& problem, const PathGraph& graph
                  options.faces
                      ? std::optional(FaceLoops(*problem.layout, graph, space_.pool, space_.cuts))
                      : std::nullopt,
-                 linear_vertices(space_.strands)),
+                 linear_vertices(space_.strands), options.patience),
       enumeration_(space_.strands, space_.fields),
       rest_bounds_(problem.layout->edge_count()),
       explorations_(problem.layout->edge_count())

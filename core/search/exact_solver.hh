@@ -26,6 +26,9 @@ struct ExactSolverOptions {
     bool exploration = true;
     /// Tell the selection what the layout's faces demand of the classes around them.
     bool faces = true;
+    /// Units of work after which branch and bound helps where the selection's clauses are stuck
+    /// (ClassSelection); 0 for branch and bound from the start.
+    std::uint64_t patience = 200'000;
 };
 
 /// The best of all embeddings (design, Sec. 3): after a start by insertion, the cheapest selection

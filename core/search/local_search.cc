@@ -30,11 +30,11 @@ LocalSearch::LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumb
 void LocalSearch::allow(std::uint64_t work)
 {
     max_work_ = work_ + work;
+    kicks_ = 0;
+    is_exhausted_ = current_.size() < 3;
     if (incumbent_.cost() < current_cost_ && !in_trial_) {
         current_ = incumbent_.walks();
         current_cost_ = incumbent_.cost();
-        kicks_ = 0;
-        is_exhausted_ = false;
         find_moves();
     }
 }
@@ -103,6 +103,8 @@ void LocalSearch::begin_trial(const Move& move)
     is_kick_ = false;
 }
 
+/// Begins a trial far from the best order: some edges moved, or all paths around a vertex taken out
+/// and put back in another order. False if this has been tried often enough.
 bool LocalSearch::begin_kick()
 {
     if (kicks_ == kMaxKicks || current_.size() < 3) {
@@ -110,16 +112,46 @@ bool LocalSearch::begin_kick()
     }
     ++kicks_;
     current_ = incumbent_.walks();
-    begin_trial({0, 0});
-    for (int i = 0; i < kKickMoves; ++i) {
-        const Index from = static_cast<Index>(random_.below(trial_.size()));
-        const Index to = static_cast<Index>(random_.below(from + 1));
-        std::rotate(trial_.begin() + to, trial_.begin() + from, trial_.begin() + from + 1);
+    if (random_.below(2) == 0) {
+        begin_trial({0, 0});
+        for (int i = 0; i < kKickMoves; ++i) {
+            const Index from = static_cast<Index>(random_.below(trial_.size()));
+            const Index to = static_cast<Index>(random_.below(from + 1));
+            std::rotate(trial_.begin() + to, trial_.begin() + from, trial_.begin() + from + 1);
+        }
+        trial_next_ = 0;
+    } else {
+        const Index kept = take_out_around_a_vertex();
+        begin_trial({kept, kept});
+        for (auto i = static_cast<Index>(trial_.size()); i > kept + 1; --i) {
+            std::swap(trial_[i - 1], trial_[kept + static_cast<Index>(random_.below(i - kept))]);
+        }
     }
-    trial_next_ = 0;
     trial_limit_ = kInfiniteLength;
     is_kick_ = true;
     return true;
+}
+
+/// Puts the walks of the edges at a random vertex, or at that and its neighbours, behind all others;
+/// how many these are.
+Index LocalSearch::take_out_around_a_vertex()
+{
+    const Layout& layout = embedding_.layout();
+    const WalkPool& pool = embedding_.pool();
+    std::vector<bool> is_near(layout.vertex_count(), false);
+    const auto middle = static_cast<Index>(random_.below(layout.vertex_count()));
+    is_near[middle] = true;
+    if (random_.below(2) == 0) {
+        for (const Index h : layout.outgoing(middle)) {
+            is_near[layout.head(h)] = true;
+        }
+    }
+    const auto first_out =
+        std::stable_partition(current_.begin(), current_.end(), [&](Index walk) {
+            const Index e = pool.layout_edge(walk);
+            return !is_near[layout.tail(2 * e)] && !is_near[layout.head(2 * e)];
+        });
+    return static_cast<Index>(first_out - current_.begin());
 }
 
 LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
@@ -136,6 +168,8 @@ LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
                 is_exhausted_ = true;
                 return Outcome::finished;
             }
+            budget.charge(1);
+            ++work_;
             const WalkPool& pool = embedding_.pool();
             embedding_.go_to(std::span(current_).first(trial_next_));
             rest_bound_ = 0;

@@ -15,7 +15,8 @@ namespace layout_embedding {
 ///
 /// A path that is longer than it would have to be is inserted earlier: right before one of those
 /// that cross its unconstrained path, or leave a landmark in its way. Descends to an order that no
-/// such move improves, then moves a few random edges and descends again, as long as that helps.
+/// such move improves, then moves a few random edges, or puts all paths around a vertex back in
+/// another order, and descends again, as long as that helps.
 class LocalSearch {
 public:
     enum class Outcome {
@@ -52,6 +53,7 @@ private:
     void find_moves();
     void begin_trial(const Move& move);
     bool begin_kick();
+    Index take_out_around_a_vertex();
     Outcome evaluate(WorkBudget& budget);
     bool in_the_way(Index walk, Index root_walk) const;
 

@@ -62,6 +62,13 @@ public:
 
     /// Continues until something happens.
     Outcome run(WorkBudget& budget);
+    /// Leaves a step that is `running`, so that something may be added; what was learned stays.
+    void interrupt()
+    {
+        if (stage_ != Stage::satisfied) {
+            stage_ = Stage::idle;
+        }
+    }
 
     /// Every assignment costs at least this, or at least the upper bound.
     Length lower_bound() const { return std::min(lower_bound_, upper_bound_); }

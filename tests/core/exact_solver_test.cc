@@ -61,6 +61,21 @@ struct Run {
 };
 
 using ExactRun = Run<ExactSolver, ExactSolverOptions>;
+
+/// Branch and bound alone proves the same where clauses, or both, proved this.
+void expect_same_by_branch_and_bound(const EmbeddingProblem& problem, const ExactRun& proved,
+                                     ExactSolverOptions options = {},
+                                     const PathGraph::Options& graph_options = {})
+{
+    options.patience = 0;
+    const ExactRun run(problem, options, 5000, 400'000, graph_options);
+    if (run.has_finished) {
+        EXPECT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+        EXPECT_EQ(run.solver.incumbent_cost(), proved.solver.incumbent_cost());
+    }
+    EXPECT_LE(run.solver.lower_bound(), proved.solver.incumbent_cost());
+}
+
 using SequenceRun = Run<SequenceSolver, SequenceSolverOptions>;
 
 SequenceSolverOptions best_sequence()
@@ -90,6 +105,7 @@ TEST(ExactSolver, finds_the_best_of_all_selections)
         ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
         const test::AllSelections all(instance.problem, run.solver.incumbent_cost() + 1);
         EXPECT_EQ(run.solver.incumbent_cost(), all.best());
+        expect_same_by_branch_and_bound(instance.problem, run);
         above_root += run.solver.counters().states_created > 0 ? 1 : 0;
         looked_into += run.solver.counters().states_expanded > 0 ? 1 : 0;
     }
@@ -115,6 +131,7 @@ TEST(ExactSolver, finds_the_best_of_all_selections_in_any_metric)
         const test::AllSelections all(instance.problem, run.solver.incumbent_cost() + 1,
                                       {.graph = metric});
         EXPECT_EQ(run.solver.incumbent_cost(), all.best());
+        expect_same_by_branch_and_bound(instance.problem, run, {}, metric);
         const ExactRun euclidean(instance.problem, {});
         other += run.solver.incumbent_order() != euclidean.solver.incumbent_order() ||
                          test::total_length(euclidean.graph, run.solver.incumbent()) >
@@ -171,6 +188,7 @@ TEST(ExactSolver, finds_the_best_of_all_selections_that_leave_the_holes_where_th
         ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
         const test::AllSelections all(instance.problem, run.solver.incumbent_cost() + 1);
         EXPECT_EQ(run.solver.incumbent_cost(), all.best());
+        expect_same_by_branch_and_bound(instance.problem, run);
         SequenceSolverOptions greedy_only = best_sequence();
         greedy_only.branch_and_bound.max_states = 1;
         const SequenceRun sequences(instance.problem, greedy_only);
@@ -268,6 +286,7 @@ TEST(ExactSolver, finds_the_next_best_embeddings_in_order)
                 break;  // on such coarse targets the next one can be very long
             }
             ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
+            expect_same_by_branch_and_bound(instance.problem, run, options);
             costs.push_back(run.solver.incumbent_cost());
             options.excluded.emplace_back();
             for (const WeakPath& path : run.solver.incumbent().paths) {
@@ -309,6 +328,7 @@ TEST(ExactSolver, finds_the_best_of_all_selections_with_weighted_edges)
         ASSERT_EQ(run.solver.lower_bound(), run.solver.incumbent_cost());
         const test::AllSelections all(weighted, run.solver.incumbent_cost() + 1, {.graph = graph});
         EXPECT_EQ(run.solver.incumbent_cost(), all.best());
+        expect_same_by_branch_and_bound(weighted, run, {}, graph);
         const SequenceRun sequences(weighted, best_sequence(), UINT64_MAX, UINT64_MAX, graph);
         EXPECT_GE(sequences.solver.incumbent_cost(), run.solver.incumbent_cost());
         EXPECT_EQ(sequences.solver.lower_bound(), sequences.solver.incumbent_cost());
@@ -373,13 +393,20 @@ TEST(ExactSolver, slices_change_neither_what_happens_nor_when)
 {
     for (const Instance& instance : small_instances(204, 10)) {
         SCOPED_TRACE(instance.name);
-        const ExactRun whole(instance.problem, {});
-        for (const std::uint64_t slice : {7U, 500U}) {
-            const ExactRun sliced(instance.problem, {}, slice);
-            EXPECT_EQ(sliced.happened, whole.happened);
-            EXPECT_EQ(sliced.solver.incumbent_cost(), whole.solver.incumbent_cost());
-            EXPECT_EQ(sliced.solver.incumbent_order(), whole.solver.incumbent_order());
-            EXPECT_EQ(sliced.solver.counters().expansions, whole.solver.counters().expansions);
+        for (const std::uint64_t patience : {200'000U, 2000U, 0U}) {
+            ExactSolverOptions options;
+            options.patience = patience;
+            const ExactRun whole(instance.problem, options, UINT64_MAX, 1'000'000);
+            for (const std::uint64_t slice : {7U, 500U}) {
+                const ExactRun sliced(instance.problem, options, slice, 1'000'000);
+                if (!whole.has_finished || !sliced.has_finished) {
+                    continue;
+                }
+                EXPECT_EQ(sliced.happened, whole.happened);
+                EXPECT_EQ(sliced.solver.incumbent_cost(), whole.solver.incumbent_cost());
+                EXPECT_EQ(sliced.solver.incumbent_order(), whole.solver.incumbent_order());
+                EXPECT_EQ(sliced.solver.counters().expansions, whole.solver.counters().expansions);
+            }
         }
     }
 }
