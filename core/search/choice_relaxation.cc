@@ -53,8 +53,7 @@ Index ChoiceRelaxation::add_label(Index variable, Index group, Cost cost, Index 
 Index ChoiceRelaxation::pair_of(Index variable_a, Index variable_b)
 {
     for (const Link& link : variables_[variable_a].links) {
-        if (!link.is_triangle &&
-            pairs_[link.factor].variables[1 - link.place] == variable_b) {
+        if (!link.is_triangle && pairs_[link.factor].variables[1 - link.place] == variable_b) {
             return link.factor;
         }
     }
@@ -66,9 +65,9 @@ Index ChoiceRelaxation::pair_of(Index variable_a, Index variable_b)
                       {count_a, std::vector<std::uint8_t>(count_b, 0)}});
     table_size_ += std::uint64_t{count_a} * count_b;
     variables_[variable_a].links.push_back(
-        {factor, 0, false, variable_b < variable_a, variable_b > variable_a});
+        {factor, 0, false, variable_b<variable_a, variable_b> variable_a});
     variables_[variable_b].links.push_back(
-        {factor, 1, false, variable_a < variable_b, variable_a > variable_b});
+        {factor, 1, false, variable_a<variable_b, variable_a> variable_b});
     return factor;
 }
 
@@ -91,8 +90,8 @@ Index ChoiceRelaxation::add_triangle(const std::array<Index, 3>& variables)
         const Index b = variables[(k + 2) % 3];
         Variable& v = variables_[variables[k]];
         triangle.taken[k].resize(v.left_in_group.size(), 0);
-        v.links.push_back({factor, k, true, std::min(a, b) < variables[k],
-                           std::max(a, b) > variables[k]});
+        v.links.push_back(
+            {factor, k, true, std::min(a, b) < variables[k], std::max(a, b) > variables[k]});
     }
     triangles_.push_back(std::move(triangle));
     return factor;

@@ -8,12 +8,12 @@
 
 namespace layout_embedding {
 
-/// A lower bound on the cheapest choice of one label per variable, where labels of two variables may
-/// exclude each other, and three variables around a triangle may only have certain labels together:
-/// the linear relaxation of that problem, in its dual form. Costs move between variables, pairs and
-/// triangles as messages, sweep by sweep (sequential reweighted message passing: Kolmogorov 2006,
-/// 2015); the total cost of every choice stays what it is, so that the sum of all smallest terms is
-/// a bound whenever it is taken, in exact integers.
+/// A lower bound on the cheapest choice of one label per variable, where labels of two variables
+/// may exclude each other, and three variables around a triangle may only have certain labels
+/// together: the linear relaxation of that problem, in its dual form. Costs move between variables,
+/// pairs and triangles as messages, sweep by sweep (sequential reweighted message passing:
+/// Kolmogorov 2006, 2015); the total cost of every choice stays what it is, so that the sum of all
+/// smallest terms is a bound whenever it is taken, in exact integers.
 ///
 /// Each label belongs to a *group* of its variable; triangles see groups. Labels, exclusions and
 /// tuples may be added at any time, and labels may be ruled out, for a while or for good; messages

@@ -211,8 +211,8 @@ void ChoiceTree::take(const Decision& decision)
     for (const Index label : labels) {
         const Index group = relaxation_.group(decision.edge, label);
         // Classes that have become known since were part of the rest.
-        const bool belongs = group == decision.group ||
-                             (decision.group == kRest && group >= decision.group_count);
+        const bool belongs =
+            group == decision.group || (decision.group == kRest && group >= decision.group_count);
         if (belongs != decision.is_taken) {
             relaxation_.rule_out(decision.edge, label);
         }
@@ -337,8 +337,8 @@ void ChoiceTree::raise_lower_bound()
     if (!open_.empty()) {
         least = std::min(least, open_.front().bound);
     }
-    lower_bound_ = std::max(lower_bound_, least >= limit_ ? upper_bound_
-                                                          : static_cast<Length>(least) << shift_);
+    lower_bound_ = std::max(lower_bound_,
+                            least >= limit_ ? upper_bound_ : static_cast<Length>(least) << shift_);
 }
 
 /// Makes two nodes of the present one: with the best class of the edge that has most to lose from
@@ -472,8 +472,8 @@ ChoiceTree::Outcome ChoiceTree::improve_node()
     const bool is_root = current_->decisions.empty();
     const Cost missing = limit_ - current_->bound;
     const bool gains_little =
-        rounds_ > 1 && (current_->bound - before) <
-                           missing / (is_root ? kLeastGainOfRoot : kLeastGain);
+        rounds_ > 1 &&
+        (current_->bound - before) < missing / (is_root ? kLeastGainOfRoot : kLeastGain);
     if (gains_little || rounds_ >= (is_root ? kMostRoundsOfRoot : kMostRounds)) {
         if (is_root) {
             rule_out_for_good();

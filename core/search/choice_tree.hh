@@ -13,9 +13,9 @@
 
 namespace layout_embedding {
 
-/// The cheapest choice of one class per layout edge by branch and bound: nodes decide for or against
-/// single classes, and are bounded by a linear relaxation (ChoiceRelaxation), which is far stronger
-/// than contradictions found one by one where many edges are in each other's way.
+/// The cheapest choice of one class per layout edge by branch and bound: nodes decide for or
+/// against single classes, and are bounded by a linear relaxation (ChoiceRelaxation), which is far
+/// stronger than contradictions found one by one where many edges are in each other's way.
 ///
 /// What is known of a class is its cost; all unknown classes of an edge are its *rest*, which costs
 /// at least what is known of it. Costs are those beyond the edges' bases. Knowledge may grow at any

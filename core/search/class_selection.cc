@@ -270,9 +270,9 @@ void ClassSelection::tell_tree()
         for (Index f = 0; faces_ && f < layout_.face_count(); ++f) {
             const auto halfedges = layout_.face_halfedges(f);
             if (halfedges.size() == 3 && faces_->demands(f)) {
-                triangles_[f] = tree_->add_triangle({Layout::edge(halfedges[0]),
-                                                     Layout::edge(halfedges[1]),
-                                                     Layout::edge(halfedges[2])});
+                triangles_[f] =
+                    tree_->add_triangle({Layout::edge(halfedges[0]), Layout::edge(halfedges[1]),
+                                         Layout::edge(halfedges[2])});
                 tree_->add_tuple(triangles_[f], {kNone, kNone, kNone});
             }
         }

@@ -154,7 +154,7 @@ private:
     /// Per side of a face that no class known to the tree is on: tuples with an edge's rest that
     /// would complete it.
     std::unordered_map<Index, std::vector<Index>> tuples_;  // never iterated
-    std::uint64_t sat_work_ = 0;  // since something became known
+    std::uint64_t sat_work_ = 0;                            // since something became known
     std::uint64_t tree_work_ = 0;
     std::uint64_t all_sat_work_ = 0;
     std::size_t knowledge_ = 0;

@@ -132,8 +132,8 @@ bool LocalSearch::begin_kick()
     return true;
 }
 
-/// Puts the walks of the edges at a random vertex, or at that and its neighbours, behind all others;
-/// how many these are.
+/// Puts the walks of the edges at a random vertex, or at that and its neighbours, behind all
+/// others; how many these are.
 Index LocalSearch::take_out_around_a_vertex()
 {
     const Layout& layout = embedding_.layout();
@@ -146,11 +146,10 @@ Index LocalSearch::take_out_around_a_vertex()
             is_near[layout.head(h)] = true;
         }
     }
-    const auto first_out =
-        std::stable_partition(current_.begin(), current_.end(), [&](Index walk) {
-            const Index e = pool.layout_edge(walk);
-            return !is_near[layout.tail(2 * e)] && !is_near[layout.head(2 * e)];
-        });
+    const auto first_out = std::stable_partition(current_.begin(), current_.end(), [&](Index walk) {
+        const Index e = pool.layout_edge(walk);
+        return !is_near[layout.tail(2 * e)] && !is_near[layout.head(2 * e)];
+    });
     return static_cast<Index>(first_out - current_.begin());
 }
 

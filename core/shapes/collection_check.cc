@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "apps/embed_job.hh"
-#include "base/random.hh"
 #include "apps/template_layout.hh"
+#include "base/random.hh"
 #include "patches/patch_shape.hh"
 
 namespace layout_embedding::shapes {

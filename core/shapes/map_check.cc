@@ -78,7 +78,8 @@ bool check_template(const ShapeClass& shape_class, Index from,
         std::printf("%s\n", source.error().message.c_str());
         return false;
     }
-    const auto made = template_layout(TriangleMesh(source->mesh), source->landmarks, {.quads = true});
+    const auto made =
+        template_layout(TriangleMesh(source->mesh), source->landmarks, {.quads = true});
     if (!made) {
         std::printf("%s: %s\n", shape_class.name.c_str(), made.error().message.c_str());
         return false;

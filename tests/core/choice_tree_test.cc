@@ -221,9 +221,8 @@ private:
                 }
             }
             std::erase_if(tuples, [&](const auto& tuple) {
-                return std::any_of(tuple.begin(), tuple.end(), [&](Index walk) {
-                    return walk != kNone && !tree.knows(walk);
-                });
+                return std::any_of(tuple.begin(), tuple.end(),
+                                   [&](Index walk) { return walk != kNone && !tree.knows(walk); });
             });
             auto& told = told_[t];
             for (auto it = told.begin(); it != told.end();) {

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <string>
 
-#include "layout/landmark_reader.hh"
 #include "apps/template_layout.hh"
+#include "layout/landmark_reader.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/mesh_writer.hh"
 #include "mesh/validation.hh"

@@ -8,9 +8,9 @@
 
 #include "apps/base_complex.hh"
 #include "apps/embed_job.hh"
+#include "apps/template_layout.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
-#include "apps/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
 #include "shapes/shape.hh"
@@ -344,7 +344,6 @@ TEST_P(QuadsOfShapes, have_no_flipped_quads_and_the_same_connectivity_for_all_me
     std::shared_ptr<const Layout> layout;
     std::vector<std::pair<Index, Index>> segments;
     std::vector<std::array<Index, 4>> first;
-    int done = 0;
     for (const Index member : {2U, 0U}) {
         SCOPED_TRACE(member);
         const auto shape = shapes::make_shape(shape_class, member, {1500, 0});
@@ -361,10 +360,8 @@ TEST_P(QuadsOfShapes, have_no_flipped_quads_and_the_same_connectivity_for_all_me
         }
         const auto problem = make_problem(layout, target, shape->landmarks);
         ASSERT_TRUE(problem.ok()) << problem.error().message;
-        const auto embedded = embed(*problem);
-        if (!embedded) {
-            continue;  // greedy insertion need not end in an embedding
-        }
+        const auto embedded = embed(*problem, Algorithm::exact);
+        ASSERT_TRUE(embedded.has_value());
         QuadOptions options;
         options.segments = segments;
         const auto quads = make_quad_mesh(*layout, *target, embedded->refined, options);
@@ -372,17 +369,16 @@ TEST_P(QuadsOfShapes, have_no_flipped_quads_and_the_same_connectivity_for_all_me
         expect_sound(*embedded, *quads);
         EXPECT_EQ(quads->statistics.flipped, 0U);
         EXPECT_GT(quads->statistics.mean_jacobian, 0.6);
-        if (done++ == 0) {
+        if (first.empty()) {
             first = quads->quads;
         }
         EXPECT_EQ(quads->quads, first);
     }
-    EXPECT_GT(done, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, QuadsOfShapes,
-                         testing::Values("quadruped", "hand", "bust", "machine_part", "cut_hand",
-                                         "fish", "bird", "face", "cup"),
+                         testing::Values("hand", "bust", "machine_part", "cut_hand", "fish", "bird",
+                                         "face", "cup"),
                          [](const auto& parameter) { return parameter.param; });
 
 class DefaultQuadsOfShapes : public testing::TestWithParam<std::string> {};
@@ -400,7 +396,7 @@ TEST_P(DefaultQuadsOfShapes, are_none_of_them_flipped)
         ASSERT_TRUE(shape.ok()) << shape.error().message;
         const auto target = std::make_shared<const TriangleMesh>(shape->mesh);
         if (!layout) {
-            const auto made = template_layout(*target, shape->landmarks, {true});
+            const auto made = template_layout(*target, shape->landmarks, {.quads = true});
             ASSERT_TRUE(made.ok()) << made.error().message;
             layout = std::make_shared<const Layout>(
                 Layout::from_polygons(made->mesh, "the template").value());

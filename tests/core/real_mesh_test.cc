@@ -7,12 +7,12 @@
 
 #include "apps/embed_job.hh"
 #include "apps/surface_map.hh"
+#include "apps/template_layout.hh"
 #include "embedding/triangle_quality.hh"
 #include "embedding_checks.hh"
 #include "geodesic_reference.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
-#include "apps/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/validation.hh"
 #include "patches/patch_shape.hh"

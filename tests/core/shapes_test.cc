@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "apps/embed_job.hh"
+#include "apps/template_layout.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
-#include "apps/template_layout.hh"
 #include "mesh/mesh_writer.hh"
 #include "mesh/triangle_mesh.hh"
 #include "mesh/validation.hh"

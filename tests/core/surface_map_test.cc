@@ -8,10 +8,10 @@
 #include <set>
 
 #include "apps/embed_job.hh"
+#include "apps/template_layout.hh"
 #include "base/random.hh"
 #include "embedding_checks.hh"
 #include "instances.hh"
-#include "apps/template_layout.hh"
 #include "maps/map_checker.hh"
 #include "mesh/mesh_reader.hh"
 #include "test_data.hh"

@@ -498,8 +498,8 @@ TEST(TemplateLayout, embeds_where_it_comes_from)
                 SCOPED_TRACE(name + ", " + std::to_string(n) + " landmarks" +
                              (quads ? ", quads" : ""));
                 const auto landmarks = farthest_points(*target, n);
-                auto problem =
-                    expect_template(target, landmarks, made(target, landmarks, {.quads = quads}).mesh);
+                auto problem = expect_template(target, landmarks,
+                                               made(target, landmarks, {.quads = quads}).mesh);
                 ASSERT_TRUE(problem.has_value());
                 EXPECT_TRUE(embeds(std::move(*problem)));
                 ++instances;
@@ -589,8 +589,8 @@ TEST(RealMesh, template_layouts_embed_where_they_come_from)
             for (const bool quads : {false, true}) {
                 SCOPED_TRACE(file.filename().string() + ", " + std::to_string(n) + " landmarks");
                 const auto landmarks = farthest_points(*target, n);
-                auto problem =
-                    expect_template(target, landmarks, made(target, landmarks, {.quads = quads}).mesh);
+                auto problem = expect_template(target, landmarks,
+                                               made(target, landmarks, {.quads = quads}).mesh);
                 ASSERT_TRUE(problem.has_value());
                 double ratio = std::numeric_limits<double>::infinity();
                 ++total;

@@ -1,11 +1,11 @@
 // Meshes, layouts, targets and landmarks: read, repaired, validated, looked at.
 #include <algorithm>
 
+#include "apps/template_layout.hh"
 #include "boundary/boundary.hh"
 #include "layout/embedding_problem.hh"
 #include "layout/landmark_reader.hh"
 #include "layout/proximity.hh"
-#include "apps/template_layout.hh"
 #include "mesh/mesh_reader.hh"
 #include "mesh/mesh_writer.hh"
 #include "mesh/repair.hh"
@@ -359,10 +359,9 @@ std::uint32_t boundary_template_create(std::uint32_t target, const Index* landma
             return 0U;
         }
         const DecimationCounts& counts = made->counts;
-        set_owned_view(std::vector<double>{static_cast<double>(counts.collapses),
-                                           static_cast<double>(counts.after_flips),
-                                           static_cast<double>(counts.in_any_shape),
-                                           static_cast<double>(made->flips)});
+        set_owned_view(std::vector<double>{
+            static_cast<double>(counts.collapses), static_cast<double>(counts.after_flips),
+            static_cast<double>(counts.in_any_shape), static_cast<double>(made->flips)});
         return handles<MeshObject>().add(
             std::make_unique<MeshObject>(MeshObject{std::move(made->mesh), {}, {}, {}}));
     });

@@ -158,8 +158,9 @@ Figure spectacles_figure(Index member)
         figure.landmark(side_name(side, "temple_middle"), temple.point(0, 0, -0.6 * l), temple.y());
         figure.landmark(side_name(side, "hinge"), temple.point(0, 0, 0),
                         temple.direction(side, 0.2, 0.4));
-        // Around each rim, in turn on its outside and towards the lens: with fewer, edges of a layout
-        // would have to lead all the way around the rims, since no two may join the same landmarks.
+        // Around each rim, in turn on its outside and towards the lens: with fewer, edges of a
+        // layout would have to lead all the way around the rims, since no two may join the same
+        // landmarks.
         const struct {
             const char* outside;
             const char* inside;
