@@ -135,11 +135,10 @@ private:
     std::uint64_t uncharged_ = 0;
     Index class_count_ = 0;
 
-    // Branch and bound, once the clauses have turned out to be hard. What it is told, in order: of
-    // known classes, of bounds for rests, and of classes that cannot be chosen together, where
-    // `layout_edge` says that with them that edge's rest is not either.
+    // Branch and bound, once the clauses have turned out to be hard, and what it is told: known
+    // classes, what an edge's rest costs beside some of them, and which cannot be chosen together.
     struct Told {
-        Index layout_edge;
+        Index layout_edge;  // kNone where classes cannot be chosen together
         std::vector<Index> walks;
         Length cost;
     };
