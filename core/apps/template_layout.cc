@@ -47,13 +47,9 @@ Result<TemplateLayout> template_layout(const TriangleMesh& target, std::span<con
     if (!decimated) {
         return decimated.error();
     }
-    TemplateLayout result{std::move(decimated->mesh), decimated->counts,
-                          decimated->times_unblocked};
-    if (options.shorten) {
-        ShortenedLayout shorter = shortened(result.mesh, target, landmarks);
-        result.mesh = std::move(shorter.mesh);
-        result.flips = shorter.flips;
-    }
+    ShortenedLayout shorter = shortened(decimated->mesh, target, landmarks);
+    TemplateLayout result{std::move(shorter.mesh), decimated->counts, decimated->times_unblocked,
+                          shorter.flips};
     if (options.quads) {
         result.mesh = merged_into_quads(result.mesh);
     }

@@ -9,9 +9,6 @@
 namespace layout_embedding {
 
 struct TemplateOptions {
-    /// Flips edges that other paths force away from their shortest ones
-    /// (apps/layout_shortening.hh).
-    bool shorten = true;
     /// Merges pairs of triangles into well-shaped quads (layout/quad_pairing.hh).
     bool quads = false;
 };
@@ -28,7 +25,8 @@ struct TemplateLayout {
 };
 
 /// Makes a layout of a landmarked target: decimated to its landmarks (paper, Sec. 5.1;
-/// layout/decimated_layout.hh), then freed of twists, then perhaps merged into quads.
+/// layout/decimated_layout.hh), then freed of twists (apps/layout_shortening.hh), then perhaps
+/// merged into quads.
 ///
 /// Errors: those of decimated_layout(). A second for some thousand vertices, a few more for a
 /// million triangles; deterministic.

@@ -17,6 +17,9 @@ constexpr ChoiceRelaxation::Cost kLeastGain = 200;
 constexpr int kMostRounds = 6;
 constexpr ChoiceRelaxation::Cost kLeastGainOfRoot = 3000;
 constexpr int kMostRoundsOfRoot = 400;
+// From a node down to a choice, as long as its bound is above the smallest by no more than this
+// share of what is missing there.
+constexpr ChoiceRelaxation::Cost kDive = 8;
 // Table entries looked at in the time of a unit of work.
 constexpr std::uint64_t kLooksPerWork = 64;
 
@@ -364,9 +367,8 @@ void ChoiceTree::branch()
     current_->decisions.push_back({edge, relaxation_.best_group(edge), count, true});
     current_->id = next_id_++;
     rounds_ = 0;
-    // Down to a choice, as long as that is not far from the best.
     const Cost best = open_.front().bound;
-    if (current_->bound - best > (limit_ - best) / 8) {
+    if (current_->bound - best > (limit_ - best) / kDive) {
         open(std::move(*current_));
         current_.reset();
     } else {

@@ -20,6 +20,7 @@
 #include "mesh/polygon_halfedges.hh"
 #include "mesh/repair.hh"
 #include "mesh/validation.hh"
+#include "shapes/shape.hh"
 #include "test_data.hh"
 #include "zoo.hh"
 
@@ -507,6 +508,51 @@ TEST(TemplateLayout, embeds_where_it_comes_from)
         }
     }
     EXPECT_GT(instances, 60);
+}
+
+/// What the best embedding costs that is found with little work.
+double embedded_cost(const TargetPointer& target, const std::vector<Index>& landmarks,
+                     const PolygonMesh& mesh)
+{
+    auto problem = expect_template(target, landmarks, mesh);
+    EmbedOptions options;
+    options.work_limit = 2'000'000;
+    EmbedJob job(std::move(problem.value()), options);
+    while (job.step()) {
+    }
+    EXPECT_TRUE(job.result().refined.has_value());
+    if (job.result().refined) {
+        test::expect_valid(job.problem(), *job.graph(), job.result().weak, *job.result().refined);
+    }
+    return job.result().cost;
+}
+
+TEST(TemplateLayout, flips_make_its_embedding_shorter)
+{
+    Index flips = 0;
+    for (const char* name : {"cup", "pretzel", "spectacles", "plane"}) {
+        SCOPED_TRACE(name);
+        const shapes::ShapeClass& shape_class = *shapes::find_shape_class(name);
+        for (const Index member : {0U, 3U}) {
+            const auto shape = shapes::make_shape(shape_class, member, {1200, 0});
+            ASSERT_TRUE(shape.ok()) << shape.error().message;
+            const auto target = target_of(shape->mesh);
+            const auto decimated = decimated_layout(*target, shape->landmarks);
+            ASSERT_TRUE(decimated.ok()) << decimated.error().message;
+            const TemplateLayout shorter = made(target, shape->landmarks);
+            EXPECT_EQ(shorter.mesh.face_count(), decimated->mesh.face_count());
+            const double before = embedded_cost(target, shape->landmarks, decimated->mesh);
+            const double after = embedded_cost(target, shape->landmarks, shorter.mesh);
+            if (shorter.flips == 0) {
+                EXPECT_EQ(shorter.mesh.corners.size(), decimated->mesh.corners.size());
+                EXPECT_EQ(after, before);
+            } else {
+                EXPECT_LT(after, before);
+            }
+            flips += shorter.flips;
+        }
+    }
+    EXPECT_GT(flips, 5U);
 }
 
 /// All triangle meshes among the real ones.
