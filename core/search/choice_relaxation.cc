@@ -1,6 +1,7 @@
 #include "search/choice_relaxation.hh"
 
 #include <algorithm>
+#include <bit>
 
 namespace layout_embedding {
 
@@ -8,8 +9,28 @@ namespace {
 
 // With what its owner keeps to find it again.
 constexpr std::uint64_t kBytesPerTuple = 64;
+// A bit in either direction.
+constexpr std::uint64_t kPairsPerByte = 4;
 
 }  // namespace
+
+ChoiceRelaxation::BitTable::BitTable(Index rows, Index width)
+    : stride_((width + 63) / 64), words_(rows * stride_, 0)
+{}
+
+void ChoiceRelaxation::BitTable::widen(Index width)
+{
+    if (width <= stride_ * 64) {
+        return;
+    }
+    const std::size_t stride = 2 * stride_;
+    std::vector<std::uint64_t> words(words_.size() / stride_ * stride, 0);
+    for (std::size_t row = 0; row * stride < words.size(); ++row) {
+        std::copy_n(&words_[row * stride_], stride_, &words[row * stride]);
+    }
+    stride_ = stride;
+    words_ = std::move(words);
+}
 
 Index ChoiceRelaxation::add_label(Index variable, Index group, Cost cost, Index like)
 {
@@ -33,14 +54,9 @@ Index ChoiceRelaxation::add_label(Index variable, Index group, Cost cost, Index 
             Pair& pair = pairs_[link.factor];
             pair.taken[link.place].push_back(like == kNone ? 0 : pair.taken[link.place][like]);
             moved += pair.taken[link.place].back();
-            table_size_ += pair.taken[1 - link.place].size();
-            if (link.place == 0) {
-                pair.excluded.emplace_back(pair.taken[1].size(), 0);
-            } else {
-                for (std::vector<std::uint8_t>& row : pair.excluded) {
-                    row.push_back(0);
-                }
-            }
+            table_size_ += pair.taken[1 - link.place].size() / kPairsPerByte;
+            pair.excluded[link.place].add_row();
+            pair.excluded[1 - link.place].widen(label + 1);
         }
     }
     v.labels.push_back({group, false});
@@ -62,8 +78,8 @@ Index ChoiceRelaxation::pair_of(Index variable_a, Index variable_b)
     const Index count_b = label_count(variable_b);
     pairs_.push_back({{variable_a, variable_b},
                       {std::vector<Cost>(count_a, 0), std::vector<Cost>(count_b, 0)},
-                      {count_a, std::vector<std::uint8_t>(count_b, 0)}});
-    table_size_ += std::uint64_t{count_a} * count_b;
+                      {BitTable(count_a, count_b), BitTable(count_b, count_a)}});
+    table_size_ += std::uint64_t{count_a} * count_b / kPairsPerByte;
     variables_[variable_a].links.push_back(
         {factor, 0, false, variable_b<variable_a, variable_b> variable_a});
     variables_[variable_b].links.push_back(
@@ -74,11 +90,9 @@ Index ChoiceRelaxation::pair_of(Index variable_a, Index variable_b)
 void ChoiceRelaxation::exclude(Index variable_a, Index label_a, Index variable_b, Index label_b)
 {
     Pair& pair = pairs_[pair_of(variable_a, variable_b)];
-    if (pair.variables[0] == variable_a) {
-        pair.excluded[label_a][label_b] = 1;
-    } else {
-        pair.excluded[label_b][label_a] = 1;
-    }
+    const int place = pair.variables[0] == variable_a ? 0 : 1;
+    pair.excluded[place].set(label_a, label_b);
+    pair.excluded[1 - place].set(label_b, label_a);
 }
 
 Index ChoiceRelaxation::add_triangle(const std::array<Index, 3>& variables)
@@ -206,27 +220,21 @@ void ChoiceRelaxation::find_marginals(const Link& link)
     const Variable& there = variables_[pair.variables[1 - link.place]];
     const std::vector<Cost>& taken = pair.taken[1 - link.place];
     marginals_.assign(here.labels.size(), kNever);
-    look_count_ += here.left.size() + there.left.size();
-    // Most labels go with the one that has most to give.
-    Index richest = there.left.front();
-    for (const Index other : there.left) {
-        richest = taken[other] > taken[richest] ? other : richest;
-    }
-    const auto is_excluded = [&](Index label, Index other) {
-        return (link.place == 0 ? pair.excluded[label][other] : pair.excluded[other][label]) != 0;
-    };
+    look_count_ += here.left.size();
+    // Most labels go with one of those that have most to give.
+    by_taken_.assign(there.left.begin(), there.left.end());
+    look_count_ += by_taken_.size() * std::bit_width(by_taken_.size());
+    std::sort(by_taken_.begin(), by_taken_.end(),
+              [&](Index a, Index b) { return taken[a] != taken[b] ? taken[a] > taken[b] : a < b; });
     for (const Index label : here.left) {
-        Cost most = -kNever;
-        if (!is_excluded(label, richest)) {
-            most = taken[richest];
-        } else {
-            look_count_ += there.left.size();
-            for (const Index other : there.left) {
-                most = is_excluded(label, other) ? most : std::max(most, taken[other]);
-            }
-        }
-        if (most != -kNever) {
-            marginals_[label] = -most - pair.taken[link.place][label];
+        const std::uint64_t* excluded = pair.excluded[link.place].row(label);
+        const auto is_excluded = [&](Index other) {
+            return ((excluded[other / 64] >> (other % 64)) & 1U) != 0;
+        };
+        const auto best = std::find_if_not(by_taken_.begin(), by_taken_.end(), is_excluded);
+        look_count_ += static_cast<std::uint64_t>(best - by_taken_.begin());
+        if (best != by_taken_.end()) {
+            marginals_[label] = -taken[*best] - pair.taken[link.place][label];
         }
     }
 }

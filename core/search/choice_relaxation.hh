@@ -103,12 +103,29 @@ private:
         Index best_group = kNone;
         Cost margin = 0;
     };
+    /// Bits in rows, which may grow both ways.
+    class BitTable {
+    public:
+        BitTable(Index rows, Index width);
+        void add_row() { words_.resize(words_.size() + stride_, 0); }
+        /// So that every row has at least so many bits.
+        void widen(Index width);
+        void set(Index row, Index bit)
+        {
+            words_[std::size_t{row} * stride_ + bit / 64] |= std::uint64_t{1} << (bit % 64);
+        }
+        const std::uint64_t* row(Index row) const { return &words_[std::size_t{row} * stride_]; }
+
+    private:
+        std::size_t stride_;  // in words, at least one
+        std::vector<std::uint64_t> words_;
+    };
     /// `taken[k]`: per label (in triangles: per group) of variable k, the cost that has gone from
     /// here to that variable.
     struct Pair {
         std::array<Index, 2> variables;
         std::array<std::vector<Cost>, 2> taken;
-        std::vector<std::vector<std::uint8_t>> excluded;  // by labels of the first, of the second
+        std::array<BitTable, 2> excluded;  // by labels of variable k: labels of the other one
     };
     struct Triangle {
         std::array<Index, 3> variables;
@@ -142,6 +159,7 @@ private:
     std::vector<Cost> marginals_;  // per label or group, of find_marginals()
     std::vector<Cost> sums_;
     std::vector<Cost> shares_;
+    std::vector<Index> by_taken_;
     std::vector<Index> gone_;
 };
 

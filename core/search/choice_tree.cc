@@ -334,6 +334,10 @@ void ChoiceTree::take_ruled_out(std::vector<Index>& walks, std::vector<Index>& r
 void ChoiceTree::raise_lower_bound()
 {
     Cost least = limit_;
+    if (current_ && current_->decisions.empty()) {
+        // It says something about all nodes.
+        lower_bound_ = std::max(lower_bound_, static_cast<Length>(current_->bound) << shift_);
+    }
     if (current_) {
         least = std::min(least, current_->bound);
     }
@@ -342,6 +346,18 @@ void ChoiceTree::raise_lower_bound()
     }
     lower_bound_ = std::max(lower_bound_,
                             least >= limit_ ? upper_bound_ : static_cast<Length>(least) << shift_);
+}
+
+/// Finds the edges whose rest the relaxation takes; whether there are any.
+bool ChoiceTree::find_wanted()
+{
+    wanted_.clear();
+    for (Index e = 0; e < edges_.size(); ++e) {
+        if (relaxation_.best_group(e) == kRest) {
+            wanted_.push_back(e);
+        }
+    }
+    return !wanted_.empty();
 }
 
 /// Makes two nodes of the present one: with the best class of the edge that has most to lose from
@@ -473,9 +489,16 @@ ChoiceTree::Outcome ChoiceTree::improve_node()
     ++rounds_;
     const bool is_root = current_->decisions.empty();
     const Cost missing = limit_ - current_->bound;
-    const bool gains_little =
-        rounds_ > 1 &&
-        (current_->bound - before) < missing / (is_root ? kLeastGainOfRoot : kLeastGain);
+    const auto gains_less_than = [&](Cost share) {
+        return rounds_ > 1 && (current_->bound - before) < missing / share;
+    };
+    if (is_root && wanted_version_ != version_ && gains_less_than(kLeastGain)) {
+        wanted_version_ = version_;
+        if (find_wanted()) {
+            return Outcome::wants_classes;
+        }
+    }
+    const bool gains_little = gains_less_than(is_root ? kLeastGainOfRoot : kLeastGain);
     if (gains_little || rounds_ >= (is_root ? kMostRoundsOfRoot : kMostRounds)) {
         if (is_root) {
             rule_out_for_good();

@@ -26,6 +26,9 @@ public:
         running,
         /// lower_bound() has risen.
         raised,
+        /// What is known is nearly used up: the relaxation takes the rest of some edges (wanted()),
+        /// and to know more of their classes would raise the bound. Once for what is known.
+        wants_classes,
         /// There is a choice (choice()), not known to be the cheapest.
         satisfied,
         /// The choice costs lower_bound(): there is none cheaper.
@@ -65,6 +68,7 @@ public:
     /// Classes that no choice that matters takes, as found since the last time, by their walks; an
     /// edge's rest goes to `rests`.
     void take_ruled_out(std::vector<Index>& walks, std::vector<Index>& rests);
+    const std::vector<Index>& wanted() const { return wanted_; }
     std::uint64_t node_count() const { return node_count_; }
     /// About how many bytes exclusions and tuples take.
     std::uint64_t table_size() const { return relaxation_.table_size(); }
@@ -130,6 +134,7 @@ private:
     Outcome improve_node();
     bool is_leaf() const;
     Length take_choices();
+    bool find_wanted();
     void branch();
     void open(Node node);
     Node take_best();
@@ -154,6 +159,8 @@ private:
     std::uint64_t node_count_ = 0;
     std::uint64_t root_version_ = 0;
     bool root_is_saved_ = false;
+    std::vector<Index> wanted_;
+    std::optional<std::uint64_t> wanted_version_;
     std::vector<Index> choices_;
     std::vector<Index> ruled_out_;
     std::vector<Index> ruled_out_rests_;

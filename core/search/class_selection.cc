@@ -17,7 +17,7 @@ constexpr std::uint64_t kTreeShare = 3;
 // Units of work that clauses or branch and bound get at a time.
 constexpr std::uint64_t kTurn = 50'000;
 // No branch and bound on larger tables.
-constexpr std::uint64_t kMostEntries = 3'000'000;
+constexpr std::uint64_t kMostEntries = 32'000'000;
 
 }  // namespace
 
@@ -197,7 +197,7 @@ ClassSelection::Outcome ClassSelection::run_engine(WorkBudget& budget)
         turn_left_ = kTurn;
     }
     WorkBudget turn(std::min(budget.left(), turn_left_));
-    const Outcome outcome = is_trees_turn_ ? run_tree(turn) : sat_.run(turn);
+    const Outcome outcome = is_trees_turn_ ? run_tree(turn) : run_sat(turn);
     budget.charge(turn.spent());
     turn_left_ -= std::min(turn_left_, turn.spent());
     (is_trees_turn_ ? tree_work_ : sat_work_) += turn.spent();
@@ -245,6 +245,8 @@ ClassSelection::Outcome ClassSelection::run_tree(WorkBudget& budget)
     switch (outcome) {
         case ChoiceTree::Outcome::raised:
             return Outcome::raised;
+        case ChoiceTree::Outcome::wants_classes:
+            return Outcome::wants_classes;
         case ChoiceTree::Outcome::satisfied:
             return Outcome::satisfied;
         case ChoiceTree::Outcome::optimal:
@@ -252,6 +254,23 @@ ClassSelection::Outcome ClassSelection::run_tree(WorkBudget& budget)
         case ChoiceTree::Outcome::exceeded:
             return Outcome::exceeded;
         case ChoiceTree::Outcome::running:
+            break;
+    }
+    return Outcome::running;
+}
+
+ClassSelection::Outcome ClassSelection::run_sat(WorkBudget& budget)
+{
+    switch (sat_.run(budget)) {
+        case WeightedSat::Outcome::raised:
+            return Outcome::raised;
+        case WeightedSat::Outcome::satisfied:
+            return Outcome::satisfied;
+        case WeightedSat::Outcome::optimal:
+            return Outcome::optimal;
+        case WeightedSat::Outcome::exceeded:
+            return Outcome::exceeded;
+        case WeightedSat::Outcome::running:
             break;
     }
     return Outcome::running;

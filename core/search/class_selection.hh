@@ -30,7 +30,19 @@ namespace layout_embedding {
 /// orders around landmarks and what faces demand are added where a choice violates them.
 class ClassSelection {
 public:
-    using Outcome = WeightedSat::Outcome;
+    enum class Outcome {
+        running,
+        /// lower_bound() has risen.
+        raised,
+        /// There is a choice (choice()), not known to be the cheapest.
+        satisfied,
+        /// The choice costs lower_bound(): there is none cheaper.
+        optimal,
+        /// Every choice costs at least the upper bound.
+        exceeded,
+        /// To know more classes of some edges (wanted()) would raise the bound.
+        wants_classes,
+    };
 
     /// Keeps references. `is_linear`: per layout vertex, whether the orders of the edges there are
     /// linear, as they are at landmarks on the target's boundary. `faces` may be missing.
@@ -57,6 +69,8 @@ public:
 
     /// After `satisfied` or `optimal`: the class chosen, kNone for the rest.
     Index choice(Index layout_edge) const { return choices_[layout_edge]; }
+    /// After `wants_classes`: the edges.
+    const std::vector<Index>& wanted() const { return tree_->wanted(); }
     Length lower_bound() const
     {
         return tree_ ? std::max(sat_.lower_bound(), base_ + tree_->lower_bound())
@@ -93,6 +107,7 @@ private:
     bool is_trees_turn();
     Outcome run_engine(WorkBudget& budget);
     Outcome run_tree(WorkBudget& budget);
+    Outcome run_sat(WorkBudget& budget);
     void tell_tree();
     void tell_tree_of(Index walk);
     void tell_tree_of_triangles(Index walk);

@@ -10,6 +10,10 @@ namespace {
 constexpr std::uint64_t kFirstExplorationShare = 4;
 constexpr std::uint64_t kMaxFirstExploration = 60'000;
 constexpr unsigned kMaxExplorations = 4;
+// Where the selection wants classes, explorations go on beyond that, as long as all of them had
+// less than this share of all work.
+constexpr std::uint64_t kExplorationShare = 2;
+constexpr unsigned kMaxDoublings = 10;
 // Nothing is explored any more once so many classes are known: which of them cross takes memory for
 // all pairs.
 constexpr Index kMaxExploredClasses = 8192;
@@ -25,6 +29,10 @@ constexpr std::uint64_t kMoreEnumeration = 1000;
 // this share of all.
 constexpr std::uint64_t kLocalSearch = 100'000;
 constexpr std::uint64_t kLocalSearchShare = 10;
+// Where bound and incumbent are this close, as a share of the cost, it gets less: what it comes
+// across are more classes for the selection to choose from.
+constexpr double kCloseGap = 0.05;
+constexpr std::uint64_t kLocalSearchShareIfClose = 40;
 
 std::vector<bool> linear_vertices(const Strands& strands)
 {
@@ -63,11 +71,20 @@ Length ExactSolver::lower_bound() const
                     std::min(selection_.lower_bound(), space_.incumbent.cost()));
 }
 
-bool ExactSolver::gap_is_reached() const
+bool ExactSolver::gap_is_at_most(double gap) const
 {
     const Length cost = space_.incumbent.cost();
     return space_.incumbent.exists() &&
-           static_cast<double>(cost - lower_bound()) <= options_.gap * static_cast<double>(cost);
+           static_cast<double>(cost - lower_bound()) <= gap * static_cast<double>(cost);
+}
+
+/// Local search goes on as long as it had less than its share of all work.
+bool ExactSolver::is_local_search_up() const
+{
+    return options_.local_search && is_between_ &&
+           start_.local_search_work() *
+                   (gap_is_at_most(kCloseGap) ? kLocalSearchShareIfClose : kLocalSearchShare) <
+               work_;
 }
 
 bool ExactSolver::bound_has_risen()
@@ -95,8 +112,10 @@ Solver::Outcome ExactSolver::run(WorkBudget& budget)
 {
     while (stage_ != Stage::finished) {
         const std::uint64_t before = budget.spent();
+        const bool explores = stage_ == Stage::enumerate && is_exploration_;
         const Outcome outcome = step(budget);
         work_ += budget.spent() - before;
+        exploration_work_ += explores ? budget.spent() - before : 0;
         is_between_ = outcome != Outcome::running;
         if (outcome != Outcome::finished) {
             return outcome;
@@ -170,12 +189,11 @@ void ExactSolver::learn()
 
 Solver::Outcome ExactSolver::select(WorkBudget& budget)
 {
-    if (gap_is_reached()) {
+    if (gap_is_at_most(options_.gap)) {
         stage_ = Stage::finished;
         return Outcome::finished;
     }
-    if (options_.local_search && is_between_ &&
-        start_.local_search_work() * kLocalSearchShare < work_ && start_.resume(kLocalSearch)) {
+    if (is_local_search_up() && start_.resume(kLocalSearch)) {
         stage_ = Stage::improve;
         return Outcome::finished;
     }
@@ -185,6 +203,9 @@ Solver::Outcome ExactSolver::select(WorkBudget& budget)
             return Outcome::running;
         case ClassSelection::Outcome::raised:
             return bound_has_risen() ? Outcome::bounded : Outcome::finished;
+        case ClassSelection::Outcome::wants_classes:
+            explore_wanted();
+            break;
         case ClassSelection::Outcome::exceeded:
             stage_ = Stage::finished;
             break;
@@ -195,6 +216,21 @@ Solver::Outcome ExactSolver::select(WorkBudget& budget)
             break;
     }
     return Outcome::finished;
+}
+
+/// Explores edges of which the selection would gain from knowing more.
+void ExactSolver::explore_wanted()
+{
+    if (!options_.exploration || exploration_work_ * kExplorationShare >= work_) {
+        return;
+    }
+    open_.clear();
+    next_open_ = 0;
+    for (const Index e : selection_.wanted()) {
+        open_.push_back({e, 0});
+    }
+    is_wanted_ = true;
+    stage_ = Stage::explore;
 }
 
 /// Goes to the selection's known classes, and decides what to do about it.
@@ -232,6 +268,7 @@ void ExactSolver::look_into(bool is_optimal)
     if (is_optimal || (space_.incumbent.exists() && cost_ - bound <= (incumbent - bound) / 2)) {
         ++counters_.states_expanded;
         has_explored_ = false;
+        is_wanted_ = false;
         // Without an incumbent nothing says how far to explore: first of all, an embedding. Where
         // holes are in the way it takes classes that lead around them.
         stage_ = (options_.exploration && space_.incumbent.exists()) || has_holes_ ? Stage::explore
@@ -292,26 +329,26 @@ Solver::Outcome ExactSolver::explore()
     for (; next_open_ < open_.size(); ++next_open_) {
         const Index edge = open_[next_open_].edge;
         Exploration& exploration = explorations_[edge];
-        if (exploration.rounds == kMaxExplorations ||
+        if ((!is_wanted_ && exploration.rounds >= kMaxExplorations) ||
             selection_.class_count() >= kMaxExploredClasses ||
             (space_.incumbent.exists() && exploration.frontier >= base(edge) + slack)) {
             continue;
         }
         Length limit = kInfiniteLength;
+        const unsigned rounds = std::min(exploration.rounds++, kMaxDoublings);
         if (space_.incumbent.exists()) {
             const Length share = slack / open_.size() + 1;
-            const unsigned doublings = kFirstShares + exploration.rounds;
+            const unsigned doublings = kFirstShares + rounds;
             limit = base(edge) + (share < (slack >> doublings) ? share << doublings : slack);
             limit = limit > exploration.frontier ? limit : base(edge) + slack;
         }
         is_exploration_ = true;
         has_explored_ = true;
         space_.embedding.go_to({});
-        return begin_enumeration(edge, limit, first << exploration.rounds++) ? Outcome::finished
-                                                                             : Outcome::tied;
+        return begin_enumeration(edge, limit, first << rounds) ? Outcome::finished : Outcome::tied;
     }
     next_open_ = 0;
-    stage_ = has_explored_ ? Stage::select : Stage::examine;
+    stage_ = has_explored_ || is_wanted_ ? Stage::select : Stage::examine;
     return Outcome::finished;
 }
 

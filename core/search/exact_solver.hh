@@ -83,6 +83,7 @@ private:
     Outcome begin(WorkBudget& budget);
     void learn();
     Outcome select(WorkBudget& budget);
+    void explore_wanted();
     void look_into(bool is_optimal);
     Outcome explore();
     Outcome examine(WorkBudget& budget);
@@ -99,7 +100,8 @@ private:
     void add_rest_bound(Index layout_edge, std::vector<Index> blockers, Length bound);
     void raise_open_bound(Length bound);
     Length open_limit() const;
-    bool gap_is_reached() const;
+    bool gap_is_at_most(double gap) const;
+    bool is_local_search_up() const;
     bool bound_has_risen();
 
     ExactSolverOptions options_;
@@ -111,6 +113,7 @@ private:
     bool has_holes_ = false;
     Stage stage_ = Stage::start;
     std::uint64_t work_ = 0;
+    std::uint64_t exploration_work_ = 0;
     bool is_between_ = false;  // the last step came to its end
 
     // What the selection has been told of.
@@ -127,6 +130,7 @@ private:
 
     // The enumeration that is going on, for open_[next_open_].
     bool is_exploration_ = false;
+    bool is_wanted_ = false;  // edges are explored since the selection wants it
     bool has_explored_ = false;
     std::uint64_t expansions_ = 0;
     std::uint64_t max_expansions_ = 0;

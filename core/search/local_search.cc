@@ -29,6 +29,7 @@ LocalSearch::LocalSearch(PartialEmbedding& embedding, PathOracle& oracle, Incumb
 
 void LocalSearch::allow(std::uint64_t work)
 {
+    is_resumed_ = max_work_ > 0;
     max_work_ = work_ + work;
     kicks_ = 0;
     is_exhausted_ = current_.size() < 3;
@@ -101,10 +102,48 @@ void LocalSearch::begin_trial(const Move& move)
     trial_limit_ = current_cost_;
     in_trial_ = true;
     is_kick_ = false;
+    embedding_.go_to(std::span(current_).first(trial_next_));
 }
 
-/// Begins a trial far from the best order: some edges moved, or all paths around a vertex taken out
-/// and put back in another order. False if this has been tried often enough.
+/// Begins a trial that takes out the walks of the edges at a random vertex, or at that and its
+/// neighbours, and puts them back in a random order.
+void LocalSearch::begin_reinsertion()
+{
+    const Layout& layout = embedding_.layout();
+    const WalkPool& pool = embedding_.pool();
+    std::vector<bool> is_near(layout.vertex_count(), false);
+    const auto middle = static_cast<Index>(random_.below(layout.vertex_count()));
+    is_near[middle] = true;
+    if (random_.below(2) == 0) {
+        for (const Index h : layout.outgoing(middle)) {
+            is_near[layout.head(h)] = true;
+        }
+    }
+    std::vector<Index> kept;
+    std::vector<Index> taken_out;
+    trial_.clear();
+    for (const Index walk : current_) {
+        const Index e = pool.layout_edge(walk);
+        if (is_near[layout.tail(2 * e)] || is_near[layout.head(2 * e)]) {
+            taken_out.push_back(e);
+        } else {
+            kept.push_back(walk);
+            trial_.push_back(e);
+        }
+    }
+    for (auto i = taken_out.size(); i > 1; --i) {
+        std::swap(taken_out[i - 1], taken_out[random_.below(i)]);
+    }
+    trial_next_ = trial_.size();
+    trial_.insert(trial_.end(), taken_out.begin(), taken_out.end());
+    trial_limit_ = current_cost_;
+    in_trial_ = true;
+    is_kick_ = false;
+    embedding_.go_to(kept);
+}
+
+/// Begins a trial far from the best order: some edges moved, or all paths around a vertex put back
+/// in another one. False if this has been tried often enough.
 bool LocalSearch::begin_kick()
 {
     if (kicks_ == kMaxKicks || current_.size() < 3) {
@@ -119,38 +158,12 @@ bool LocalSearch::begin_kick()
             const Index to = static_cast<Index>(random_.below(from + 1));
             std::rotate(trial_.begin() + to, trial_.begin() + from, trial_.begin() + from + 1);
         }
-        trial_next_ = 0;
     } else {
-        const Index kept = take_out_around_a_vertex();
-        begin_trial({kept, kept});
-        for (auto i = static_cast<Index>(trial_.size()); i > kept + 1; --i) {
-            std::swap(trial_[i - 1], trial_[kept + static_cast<Index>(random_.below(i - kept))]);
-        }
+        begin_reinsertion();
     }
     trial_limit_ = kInfiniteLength;
     is_kick_ = true;
     return true;
-}
-
-/// Puts the walks of the edges at a random vertex, or at that and its neighbours, behind all
-/// others; how many these are.
-Index LocalSearch::take_out_around_a_vertex()
-{
-    const Layout& layout = embedding_.layout();
-    const WalkPool& pool = embedding_.pool();
-    std::vector<bool> is_near(layout.vertex_count(), false);
-    const auto middle = static_cast<Index>(random_.below(layout.vertex_count()));
-    is_near[middle] = true;
-    if (random_.below(2) == 0) {
-        for (const Index h : layout.outgoing(middle)) {
-            is_near[layout.head(h)] = true;
-        }
-    }
-    const auto first_out = std::stable_partition(current_.begin(), current_.end(), [&](Index walk) {
-        const Index e = pool.layout_edge(walk);
-        return !is_near[layout.tail(2 * e)] && !is_near[layout.head(2 * e)];
-    });
-    return static_cast<Index>(first_out - current_.begin());
 }
 
 LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
@@ -161,7 +174,9 @@ LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
             if (work_ >= max_work_) {
                 return Outcome::finished;
             }
-            if (next_move_ < moves_.size()) {
+            if (is_resumed_ && random_.below(2) == 0) {
+                begin_reinsertion();
+            } else if (next_move_ < moves_.size()) {
                 begin_trial(moves_[next_move_++]);
             } else if (!begin_kick()) {
                 is_exhausted_ = true;
@@ -170,7 +185,6 @@ LocalSearch::Outcome LocalSearch::run(WorkBudget& budget)
             budget.charge(1);
             ++work_;
             const WalkPool& pool = embedding_.pool();
-            embedding_.go_to(std::span(current_).first(trial_next_));
             rest_bound_ = 0;
             for (std::size_t i = trial_next_; i < trial_.size(); ++i) {
                 rest_bound_ += pool.cost(root_walks_[trial_[i]]);

@@ -16,7 +16,9 @@ namespace layout_embedding {
 /// A path that is longer than it would have to be is inserted earlier: right before one of those
 /// that cross its unconstrained path, or leave a landmark in its way. Descends to an order that no
 /// such move improves, then moves a few random edges, or puts all paths around a vertex back in
-/// another order, and descends again, as long as that helps.
+/// another order, and descends again, as long as that helps. When it goes on after a break, every
+/// second trial on the way is one that puts the paths around a vertex back: where many are in each
+/// other's way, that brings more than single moves.
 class LocalSearch {
 public:
     enum class Outcome {
@@ -53,7 +55,7 @@ private:
     void find_moves();
     void begin_trial(const Move& move);
     bool begin_kick();
-    Index take_out_around_a_vertex();
+    void begin_reinsertion();
     Outcome evaluate(WorkBudget& budget);
     bool in_the_way(Index walk, Index root_walk) const;
 
@@ -71,8 +73,9 @@ private:
     std::size_t next_move_ = 0;
     std::vector<Index> trial_;  // edges in order
     std::size_t trial_next_ = 0;
-    Length rest_bound_ = 0;   // unconstrained lengths of trial_[trial_next_ ..]
-    Length trial_limit_ = 0;  // trials of this cost or more are given up
+    Length rest_bound_ = 0;    // unconstrained lengths of trial_[trial_next_ ..]
+    Length trial_limit_ = 0;   // trials of this cost or more are given up
+    bool is_resumed_ = false;  // allow() was called again
     bool in_trial_ = false;
     bool is_kick_ = false;
     Index kicks_ = 0;  // since the last improvement

@@ -1,6 +1,7 @@
 #include "surface/class_enumeration.hh"
 
 #include <algorithm>
+#include <utility>
 
 #include "surface/stretch.hh"
 
@@ -14,9 +15,13 @@ constexpr Index kIsGoal = Index{1} << 31U;
 // An expansion takes about as long as so many in the cut surface, and that as looking at so many
 // labels.
 constexpr std::uint64_t kExpansionWork = 3;
-constexpr std::uint64_t kLabelsPerWork = 48;
+constexpr std::uint64_t kLabelsPerWork = 16;
 // Labels take at most so many times the memory that the last enumeration needed.
 constexpr std::size_t kSpareCapacity = 8;
+// Labels per bucket, at most on average.
+constexpr std::size_t kBucketLoad = 2;
+constexpr std::size_t kLeastBuckets = 1024;
+constexpr std::uint64_t kHashFactor = 0x9E3779B97F4A7C15U;
 
 }  // namespace
 
@@ -41,15 +46,16 @@ void ClassEnumeration::begin(const CutSystem& cuts, Index layout_edge, Length li
         // One long enumeration does not take memory for all that follow.
         labels_.shrink_to_fit();
         jumps_.shrink_to_fit();
+        buckets_ = {};
     }
     labels_.clear();
     jumps_.clear();
+    buckets_.assign(std::max(buckets_.size(), kLeastBuckets), kNone);
     for (const Index state : used_states_) {
-        first_labels_[state] = kNone;
+        label_counts_[state] = 0;
     }
     used_states_.clear();
-    first_labels_.resize(std::max<std::size_t>(first_labels_.size(), strands_.state_bound()),
-                         kNone);
+    label_counts_.resize(std::max<std::size_t>(label_counts_.size(), strands_.state_bound()), 0);
     classes_.clear();
     queue_.clear();
     for (const Index edge : met_) {
@@ -158,22 +164,21 @@ void ClassEnumeration::relax(const Origin& from, Index dart, Index slot, Index s
     }
     const Index word = cuts_->advance(words_, from.word, dart, start_vertex_);
     const Index state = strands_.state(along.head, region);
-    Index& first = first_labels_[state];
-    Index found = first;
-    while (found != kNone && labels_[found].word != word) {
-        found = labels_[found].next;
-        ++label_count_;
-    }
+    const std::size_t bucket = this->bucket(state, word);
+    Index found = find(bucket, state, word);
     const bool goes_on = from.label != kNone && from.word == word;
     if (found == kNone) {
-        if (first == kNone) {
+        if (label_counts_[state]++ == 0) {
             used_states_.push_back(state);
         }
         found = static_cast<Index>(labels_.size());
-        labels_.push_back(
-            {reached, state, word, from.label, first, goes_on ? from.entry : found, dart, 0, 0});
+        labels_.push_back({reached, state, word, from.label, buckets_[bucket],
+                           goes_on ? from.entry : found, dart, 0, 0});
         jumps_.push_back({found, 0});
-        first = found;
+        buckets_[bucket] = found;
+        if (labels_.size() > kBucketLoad * buckets_.size()) {
+            grow_buckets();
+        }
     } else {
         Label& label = labels_[found];
         if (reached >= label.distance) {
@@ -187,6 +192,35 @@ void ClassEnumeration::relax(const Origin& from, Index dart, Index slot, Index s
         label.entry = goes_on ? from.entry : found;
     }
     queue_.push({estimate, along.head == goal_ ? found | kIsGoal : found, along.head});
+}
+
+std::size_t ClassEnumeration::bucket(Index state, Index word) const
+{
+    const std::uint64_t key = (std::uint64_t{word} << 32U) | state;
+    return (key * kHashFactor >> 32U) & (buckets_.size() - 1);
+}
+
+/// The label of a state with a word, which is in this bucket if there is one; kNone.
+Index ClassEnumeration::find(std::size_t bucket, Index state, Index word)
+{
+    Index label = buckets_[bucket];
+    ++label_count_;
+    while (label != kNone && (labels_[label].state != state || labels_[label].word != word)) {
+        label = labels_[label].next;
+        ++label_count_;
+    }
+    return label;
+}
+
+void ClassEnumeration::grow_buckets()
+{
+    const std::size_t size = 2 * buckets_.size();
+    buckets_ = {};  // not both at a time
+    buckets_.assign(size, kNone);
+    for (Index label = 0; label < labels_.size(); ++label) {
+        Index& first = buckets_[bucket(labels_[label].state, labels_[label].word)];
+        labels_[label].next = std::exchange(first, label);
+    }
 }
 
 /// No shorter walk will come to this label. Jumps are as long as those of the skew-binary numbers
@@ -225,21 +259,18 @@ bool ClassEnumeration::crosses_itself(Index label)
         return false;
     }
     const Index state = labels_[parent].state;
-    if (labels_[first_labels_[state]].next == kNone) {
-        return false;  // nobody else has been there
+    if (label_counts_[state] == 1) {
+        return false;  // no other walk has been there
     }
-    // Of those who have, the walk itself can only be one with a word that it has had.
-    entries_.clear();
-    for (Index l = parent; l != kNone; l = labels_[entries_.back()].parent) {
-        entries_.push_back(labels_[l].entry);
-    }
-    label_count_ += entries_.size();
+    // The walk itself can only have been there with another word that it has had.
     bool returns = false;
-    for (Index l = first_labels_[state]; l != kNone && !returns; l = labels_[l].next) {
-        ++label_count_;
-        returns = labels_[l].distance < labels_[parent].distance &&
-                  std::find(entries_.begin(), entries_.end(), labels_[l].entry) != entries_.end() &&
-                  is_on_the_way(l, parent);
+    for (Index l = labels_[labels_[parent].entry].parent; l != kNone && !returns;
+         l = labels_[labels_[l].entry].parent) {
+        const Index word = labels_[l].word;
+        const Index other = find(bucket(state, word), state, word);
+        returns = other != kNone && other != parent && labels_[other].entry == labels_[l].entry &&
+                  labels_[other].distance < labels_[parent].distance &&
+                  is_on_the_way(other, parent);
     }
     if (!returns) {
         return false;

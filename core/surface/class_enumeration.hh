@@ -62,7 +62,7 @@ private:
         Index state;
         Index word;
         Index parent;  // label, kNone at the start
-        Index next;    // label of the same state with another word
+        Index next;    // label of the same bucket
         Index entry;   // the first label on the way whose word and all later ones are this one's
         Index parent_dart : 30;  // more would not fit into memory
         Index is_closed : 1;
@@ -91,6 +91,9 @@ private:
     };
 
     void relax(const Origin& from, Index dart, Index slot, Index strand_count);
+    std::size_t bucket(Index state, Index word) const;
+    Index find(std::size_t bucket, Index state, Index word);
+    void grow_buckets();
     void close(Index label);
     bool is_on_the_way(Index label, Index to);
     bool crosses_itself(Index label);
@@ -110,13 +113,13 @@ private:
     Words words_;
     std::vector<Label> labels_;
     std::vector<Jump> jumps_;            // per label
-    std::vector<Index> first_labels_;    // per state of the cut surface
+    std::vector<Index> buckets_;         // a power of two: the first label of each
+    std::vector<Index> label_counts_;    // per state of the cut surface
     std::vector<Index> used_states_;     // those with a label
     std::unordered_set<Index> classes_;  // words; looked up, never iterated
     QuadHeap<QueueItem> queue_;
     std::vector<Index> darts_;
     std::vector<Index> reversed_;
-    std::vector<Index> entries_;
     std::vector<Index> met_;  // embedded edges
     std::vector<bool> is_met_;
     std::vector<Index> bordering_;

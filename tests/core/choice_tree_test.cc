@@ -255,6 +255,7 @@ TEST(ChoiceTree, finds_the_cheapest_choice_while_classes_become_known)
     int impossible = 0;
     std::uint64_t nodes = 0;
     std::uint64_t ruled_out = 0;
+    int wishes = 0;
     for (int round = 0; round < 400; ++round) {
         SCOPED_TRACE(round);
         const World world(random, 3 + static_cast<Index>(random.below(5)));
@@ -276,6 +277,17 @@ TEST(ChoiceTree, finds_the_cheapest_choice_while_classes_become_known)
                 EXPECT_GE(best, upper);
                 ++impossible;
                 break;
+            }
+            if (outcome == ChoiceTree::Outcome::wants_classes) {
+                ++wishes;
+                ASSERT_FALSE(teller.tree.wanted().empty());
+                for (const Index e : teller.tree.wanted()) {
+                    ASSERT_FALSE(teller.knows_all(e)) << "there are no other classes";
+                }
+                if (random.below(2) == 0) {
+                    teller.tell_next(teller.tree.wanted().front());
+                }
+                continue;
             }
             if (outcome != ChoiceTree::Outcome::satisfied &&
                 outcome != ChoiceTree::Outcome::optimal) {
@@ -320,6 +332,41 @@ TEST(ChoiceTree, finds_the_cheapest_choice_while_classes_become_known)
     EXPECT_GT(impossible, 20);
     EXPECT_GT(nodes, 3000U);
     EXPECT_GT(ruled_out, 100U);
+    EXPECT_GT(wishes, 100);
+}
+
+TEST(ChoiceTree, wants_classes_once_of_edges_whose_rest_it_takes)
+{
+    ChoiceTree tree(2, 1'000'000);
+    tree.add_class(0, 0, 5000);
+    tree.add_class(1, 1, 100);
+    tree.add_bound(1, {}, 200'000);  // dearer than the class
+    int wishes = 0;
+    for (;;) {
+        WorkBudget budget(1000);
+        const auto outcome = tree.run(budget);
+        if (outcome == ChoiceTree::Outcome::wants_classes) {
+            ++wishes;
+            EXPECT_EQ(tree.wanted(), std::vector<Index>{0});
+        }
+        if (outcome == ChoiceTree::Outcome::optimal) {
+            break;
+        }
+    }
+    EXPECT_EQ(wishes, 1);
+    EXPECT_EQ(tree.choice(0), kNone);
+    EXPECT_EQ(tree.choice(1), 1U);
+    EXPECT_EQ(tree.lower_bound(), 100U);
+
+    tree.expect_news();
+    tree.add_bound(0, {}, 6000);
+    for (auto outcome = ChoiceTree::Outcome::running; outcome != ChoiceTree::Outcome::optimal;) {
+        WorkBudget budget(1000);
+        outcome = tree.run(budget);
+        EXPECT_NE(outcome, ChoiceTree::Outcome::wants_classes);
+    }
+    EXPECT_EQ(tree.choice(0), 0U);
+    EXPECT_EQ(tree.lower_bound(), 5100U);
 }
 
 TEST(ChoiceTree, an_upper_bound_that_falls_ends_it)
