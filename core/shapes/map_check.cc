@@ -23,6 +23,8 @@ double cpu_seconds()
 struct Embedded {
     MappedTarget target;
     QuadMesh quads;
+    /// CPU time of the quads.
+    double seconds;
 };
 
 /// A checked embedding and its quads; prints why there is none.
@@ -42,6 +44,7 @@ std::optional<Embedded> embed_member(const std::shared_ptr<const Layout>& layout
         std::printf("no embedding %s\n", job.error().message.c_str());
         return std::nullopt;
     }
+    const double start = cpu_seconds();
     auto quads = make_quad_mesh(*layout, *problem->target, *job.result().refined, options);
     if (!quads) {
         std::printf("%s\n", quads.error().message.c_str());
@@ -49,7 +52,8 @@ std::optional<Embedded> embed_member(const std::shared_ptr<const Layout>& layout
     }
     return Embedded{{{problem->target, std::make_shared<const RefinedMesh>(*job.result().refined)},
                      problem->landmarks},
-                    std::move(*quads)};
+                    std::move(*quads),
+                    cpu_seconds() - start};
 }
 
 struct MapTotals {
@@ -57,11 +61,18 @@ struct MapTotals {
     Index complete = 0;
     std::size_t quads = 0;
     std::size_t flipped = 0;
+    double least_jacobian = 1;
 
+    /// Prints how good the quads are, too.
     void add(const QuadMesh& mesh)
     {
+        const QuadStatistics& statistics = mesh.statistics;
         quads += mesh.quads.size();
-        flipped += mesh.statistics.flipped;
+        flipped += statistics.flipped;
+        least_jacobian = std::min(least_jacobian, statistics.least_jacobian);
+        std::printf("%5zu quads, %3u flipped, scaled Jacobian %6.3f to 1, mean %.3f",
+                    mesh.quads.size(), statistics.flipped, statistics.least_jacobian,
+                    statistics.mean_jacobian);
     }
 
     std::vector<double> energies;
@@ -94,10 +105,10 @@ bool check_template(const ShapeClass& shape_class, Index from,
     if (!first) {
         return false;
     }
+    std::printf("%-13s %-14s    %-14s ", shape_class.name.c_str(),
+                shape_class.members[from].c_str(), "");
     totals.add(first->quads);
-    std::printf("%-13s %-14s    %-14s %5zu quads, %3u flipped\n", shape_class.name.c_str(),
-                shape_class.members[from].c_str(), "", first->quads.quads.size(),
-                first->quads.statistics.flipped);
+    std::printf(", %.1f s\n", first->seconds);
     // All members get the numbers of segments of the first one.
     QuadOptions quad_options;
     quad_options.segments_as = first->quads.segments;
@@ -118,8 +129,7 @@ bool check_template(const ShapeClass& shape_class, Index from,
         }
         const bool same = first->quads.quads == second->quads.quads;
         totals.add(second->quads);
-        std::printf("%5zu quads%s, %3u flipped%s", second->quads.quads.size(),
-                    same ? "" : " (OTHER CONNECTIVITY)", second->quads.statistics.flipped,
+        std::printf("%s, %.1f s%s", same ? "" : " (OTHER CONNECTIVITY)", second->seconds,
                     options.maps ? "; " : "\n");
         all = all && same;
         if (!options.maps) {
@@ -162,7 +172,8 @@ bool check_maps_of_collection(const std::vector<const ShapeClass*>& classes,
     if (options.maps) {
         std::printf("%u of %u pairs mapped; ", totals.complete, totals.pairs);
     }
-    std::printf("%zu of %zu quads flipped", totals.flipped, totals.quads);
+    std::printf("%zu of %zu quads flipped, smallest scaled Jacobian %.3f", totals.flipped,
+                totals.quads, totals.least_jacobian);
     if (!totals.energies.empty()) {
         std::sort(totals.energies.begin(), totals.energies.end());
         std::printf("; energy: median %.3f, largest %.3f",
