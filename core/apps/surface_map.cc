@@ -12,9 +12,10 @@
 namespace layout_embedding {
 namespace {
 
-/// Optimisation ends where a round lowers the energy by less than this share of what it exceeds an
-/// isometry by.
+/// Rounds end where one lowers the energy by less than this share of what it exceeds an isometry
+/// by, passes over the paths where one does with its rounds.
 constexpr double kLeastEnergyGain = 1e-3;
+constexpr double kLeastPassGain = 2e-2;
 constexpr double kIsometry = 4;
 
 }  // namespace
@@ -189,7 +190,12 @@ Status SurfaceMapJob::optimise()
 
 void SurfaceMapJob::end_rounds()
 {
-    stage_ = pass_ < options_.seam_passes ? Stage::paths : Stage::check;
+    // The first pass and the others judge by different energies: only those that follow say
+    // whether there is more to gain.
+    const double energy = map_.distortion_.mean_energy;
+    const bool gains =
+        pass_ < 2 || before_pass_ - energy > kLeastPassGain * (before_pass_ - kIsometry);
+    stage_ = pass_ < options_.seam_passes && gains ? Stage::paths : Stage::check;
 }
 
 Status SurfaceMapJob::move_paths()
@@ -209,6 +215,7 @@ Status SurfaceMapJob::move_paths()
         stage_ = Stage::check;
         return {};
     }
+    before_pass_ = map_.distortion_.mean_energy;
     if (has_moved) {
         if (const auto gain = keep_if_better(); !gain) {
             return gain.error();

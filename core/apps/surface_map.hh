@@ -18,8 +18,9 @@ struct SurfaceMapOptions {
     /// as they are.
     Index rounds = 5;
     /// How often all paths are moved at most (maps/seam_optimisation.hh), each time followed by
-    /// such rounds; 0 keeps the paths of the embeddings.
-    Index seam_passes = 2;
+    /// such rounds, for as long as the energy sinks by more than a fiftieth of what it exceeds an
+    /// isometry by; 0 keeps the paths of the embeddings.
+    Index seam_passes = 8;
 };
 
 /// A layout's embedding in a target, with its landmarks.
@@ -107,6 +108,7 @@ private:
     Stage stage_ = Stage::place;
     Index round_ = 0;  // since the paths were moved
     Index pass_ = 0;
+    double before_pass_ = 0;  // the mean energy before the last pass
     Status status_;
     // Of a round or a pass: both targets, and what moves their maps.
     std::vector<PlacedTarget> moved_;

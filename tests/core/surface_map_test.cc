@@ -336,6 +336,26 @@ TEST(SurfaceMap, moves_the_paths_of_both_targets_to_lower_the_energy_and_keeps_e
     EXPECT_GE(moved, 2);
 }
 
+TEST(SurfaceMap, passes_over_the_paths_go_on_while_they_gain_and_then_end)
+{
+    // Bodies of rather different proportions.
+    const EmbeddingProblem a = near(zoo::cube(), zoo::stretched_sphere(2, Vec3(1, 3, 1)), 0.2);
+    const EmbeddingProblem b = near(zoo::cube(), zoo::bumpy_sphere(2, 4), 0.2);
+    const MappedTarget in_a = embed(a);
+    const MappedTarget in_b = embed(b, PathShape::even);
+    std::vector<double> energies;
+    for (const Index passes : {2U, 4U, 50U, 100U}) {
+        const SurfaceMap map = map_of(a, in_a, in_b, 3, passes);
+        expect_common_refinement(map);
+        expect_embeddings(zoo::cube(), map, a.landmarks, b.landmarks);
+        energies.push_back(map.distortion().mean_energy);
+    }
+    EXPECT_LT(energies[1], energies[0]);
+    EXPECT_LE(energies[2], energies[1]);
+    // Long before so many of them nothing is left to gain.
+    EXPECT_EQ(energies[3], energies[2]);
+}
+
 TEST(SurfaceMapJob, works_in_small_steps_and_ends_as_far_as_it_is_at_any_of_them)
 {
     const EmbeddingProblem problem = near(zoo::cube(), zoo::stretched_sphere(2, Vec3(1, 2, 1)));

@@ -22,7 +22,7 @@ export async function makeMap(
     options: SurfaceMapOptions,
     isAlive: () => boolean,
 ): Promise<Handle> {
-    const { rounds = 5, seamPasses = 2 } = options;
+    const { rounds = 5, seamPasses = 8 } = options;
     for (const [name, value] of Object.entries({ rounds, seamPasses })) {
         if (!(Number.isInteger(value) && value >= 0 && value < 2 ** 31)) {
             throw new LayoutError(

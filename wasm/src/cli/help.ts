@@ -78,7 +78,7 @@ Options of map, beside those of embed on searches and shapes
                        coordinates of TARGET_A), and both embeddings to a/ and b/
   --rounds N           rounds of optimisation at most (default 5)
   --seam-passes N      how often the paths of both targets are moved at most to lower the distortion
-                       (default 2); 0 maps the paths of one embedding onto those of the other
+                       (default 8); 0 maps the paths of one embedding onto those of the other
 
 Options of batch, beside those of embed on searches and shapes
   --output DIR         write summary.csv and summary.json there, and a folder per member

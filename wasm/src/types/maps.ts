@@ -15,7 +15,8 @@ export interface SurfaceMapOptions extends CallOptions {
     rounds?: number;
     /**
      * How often the paths of both targets are moved at most, so that points on a path need not be
-     * mapped to a path of the other embedding; 0 keeps both embeddings as they are. Default: 2.
+     * mapped to a path of the other embedding; it ends where that gains little. 0 keeps both
+     * embeddings as they are. Default: 8.
      */
     seamPasses?: number;
 }
