@@ -39,6 +39,19 @@ constexpr std::array<Attempt, 31> kAttempts{{
     {24, Opening::unfold},
 }};
 
+/// How to begin: rounds in which all vertices unfold together, to quads of one size first and then
+/// to whatever size, in shares of the relaxation's rounds. Most meshes need none of that. Where one
+/// way leaves folds, another one often leaves none.
+struct Way {
+    double inflating;
+    double unfolding;
+    /// Moves that placing neighbourhoods of what is still flipped anew may take, per vertex of the
+    /// mesh.
+    std::size_t reopening_moves;
+};
+constexpr std::array<Way, 5> kWays{
+    {{0, 0, 100}, {2, 2, 250}, {1.4, 1.4, 250}, {0, 2, 250}, {3, 3, 250}}};
+
 }  // namespace
 
 class QuadRelaxation::Implementation {
@@ -67,12 +80,21 @@ public:
                 quads_[ends[v]++] = q;
             }
         }
+        for (Index v = 0; v < mesh.positions.size(); ++v) {
+            if (!fixed_[v]) {
+                free_.push_back(v);
+            }
+        }
+        around_free_ = quads_around(free_);
     }
 
     bool step()
     {
         if (stage_ == Stage::over) {
             return false;
+        }
+        if (first_.points.empty()) {
+            first_ = {mesh_.points, mesh_.positions};
         }
         const bool more = round_ < rounds_of_stage() && round();
         ++round_;
@@ -85,15 +107,30 @@ public:
 
     double progress() const
     {
+        if (stage_ == Stage::over) {
+            return 1;
+        }
+        // Most often one of the first two ways is the last one.
+        constexpr std::array<double, kWays.size() + 1> kBegins{0, 0.4, 0.9, 0.94, 0.97, 1};
+        return kBegins[way_] + (kBegins[way_ + 1] - kBegins[way_]) * progress_of_way();
+    }
+
+private:
+    double progress_of_way() const
+    {
         const Index rounds = rounds_of_stage();
         const double share = rounds > 0 ? std::min(1.0, double(round_) / rounds) : 0;
         switch (stage_) {
+            case Stage::inflate:
+                return 0.15 * share;
+            case Stage::open:
+                return 0.15 + 0.15 * share;
             case Stage::smooth:
-                return 0.1 * share;
+                return 0.3 + 0.05 * share;
             case Stage::settle:
-                return 0.1 + 0.3 * share;
+                return 0.35 + 0.15 * share;
             case Stage::unfold:
-                return 0.4 + 0.2 * share;
+                return 0.5 + 0.1 * share;
             case Stage::untangle:
             case Stage::mend:
                 return 0.6 +
@@ -108,14 +145,17 @@ public:
         return 1;
     }
 
-private:
     /// Means of neighbours even the mesh out where it is good. Elsewhere a smooth energy of all
     /// corners does. If quads are flipped then, all vertices lower it together until none is. What
     /// is flipped even so is untangled by turns, for as long as that makes flipped quads fewer: the
     /// energy around bad quads, and the worst quad around each vertex. Neither step is taken where
     /// it would flip more. What is still flipped has folded neighbours, and is placed anew together
-    /// with them.
+    /// with them. If that does not help, all begins anew, but first all vertices lower the energy
+    /// together, towards quads of one size and then of any, which opens what is folded at the
+    /// beginning. The way that leaves the fewest flipped counts.
     enum class Stage : std::uint8_t {
+        inflate,
+        open,
         smooth,
         settle,
         unfold,
@@ -131,8 +171,6 @@ private:
     static constexpr int kMostInVain = 2;
     /// Neighbourhoods that are placed anew.
     static constexpr Index kMostAttempts = 600;
-    /// Moves of vertices that this may take, per vertex of the mesh.
-    static constexpr std::size_t kMostReopeningMoves = 500;
     static constexpr double kLeastSoftness = 1e-4;
     static constexpr double kMostSoftness = 0.2;
     static constexpr double kSoftnessPerRound = 0.85;
@@ -141,9 +179,24 @@ private:
     /// The least scaled Jacobian of vertices that look around.
     static constexpr double kBadQuality = 0.1;
 
+    /// Of all vertices.
+    struct Places {
+        std::vector<SurfacePoint> points;
+        std::vector<Vec3> positions;
+    };
+    void restore(const Places& places)
+    {
+        mesh_.points = places.points;
+        mesh_.positions = places.positions;
+    }
+
     Index rounds_of_stage() const
     {
         switch (stage_) {
+            case Stage::inflate:
+                return static_cast<Index>(kWays[way_].inflating * rounds_);
+            case Stage::open:
+                return static_cast<Index>(kWays[way_].unfolding * rounds_);
             case Stage::smooth:
                 return std::min(kSmoothRounds, rounds_);
             case Stage::settle:
@@ -168,6 +221,9 @@ private:
         constexpr double kBadAtFirst = 0.2;
         constexpr double kBad = 0.1;
         switch (stage_) {
+            case Stage::inflate:
+            case Stage::open:
+                return unfold_softly();
             case Stage::smooth:
                 return smooth();
             case Stage::settle:
@@ -190,6 +246,12 @@ private:
     void end_stage()
     {
         switch (stage_) {
+            case Stage::inflate:
+                stage_ = Stage::open;
+                break;
+            case Stage::open:
+                stage_ = Stage::smooth;
+                break;
             case Stage::smooth:
                 stage_ = Stage::settle;
                 break;
@@ -198,7 +260,7 @@ private:
                 break;
             case Stage::unfold:
                 if (least_unfolded_ != kNone) {
-                    std::tie(mesh_.points, mesh_.positions) = std::move(unfolded_);
+                    restore(unfolded_);
                 }
                 stage_ = Stage::untangle;
                 break;
@@ -206,27 +268,55 @@ private:
                 stage_ = Stage::mend;
                 break;
             case Stage::mend:
-                stage_ = next_turn();
+                end_turn();
                 break;
             case Stage::reopen:
                 stage_ = Stage::resettle;
                 break;
             case Stage::resettle:
+                end_way();
+                break;
             case Stage::over:
-                stage_ = Stage::over;
                 break;
         }
     }
 
-    Stage next_turn()
+    /// Begins anew in another way if need be; at the end the best one counts.
+    void end_way()
+    {
+        if (const Index flipped = flipped_quads(); flipped < least_of_ways_) {
+            least_of_ways_ = flipped;
+            best_ = {mesh_.points, mesh_.positions};
+        }
+        if (least_of_ways_ > 0 && rounds_ > 0 && way_ + 1 < kWays.size()) {
+            ++way_;
+            restore(first_);
+            is_active_.assign(mesh_.positions.size(), true);
+            least_unfolded_ = least_flipped_ = kNone;
+            turn_ = turns_in_vain_ = 0;
+            reopened_quad_ = 0;
+            reopening_ = reopening_moves_ = 0;
+            has_reopened_ = false;
+            stage_ = Stage::inflate;
+            return;
+        }
+        restore(best_);
+        stage_ = Stage::over;
+    }
+
+    void end_turn()
     {
         const Index flipped = flipped_quads();
         turns_in_vain_ = flipped < least_flipped_ ? 0 : turns_in_vain_ + 1;
         least_flipped_ = std::min(least_flipped_, flipped);
         ++turn_;
-        return flipped == 0                                         ? Stage::over
-               : turn_ < kMostTurns && turns_in_vain_ < kMostInVain ? Stage::untangle
-                                                                    : Stage::reopen;
+        if (flipped > 0 && turn_ < kMostTurns && turns_in_vain_ < kMostInVain) {
+            stage_ = Stage::untangle;
+        } else if (flipped > 0) {
+            stage_ = Stage::reopen;
+        } else {
+            end_way();
+        }
     }
 
     bool smooth()
@@ -349,7 +439,7 @@ private:
     /// once nothing is flipped or no way is left.
     bool reopen()
     {
-        if (reopening_moves_ > kMostReopeningMoves * mesh_.positions.size()) {
+        if (reopening_moves_ > kWays[way_].reopening_moves * mesh_.positions.size()) {
             return false;
         }
         while (reopened_quad_ < mesh_.quads.size() && !is_flipped(reopened_quad_)) {
@@ -563,8 +653,8 @@ private:
 
     /// How far the corners of the quads around v are from those of squares: at a corner with the
     /// edges a and b, (a^2 + b^2) / (d + sqrt(d^2 + e^2)), where d is the signed area between them
-    /// as seen along the surface's normal, and e a small share of a^2 + b^2, so that small quads
-    /// beside large ones count as much.
+    /// as seen along the quad's normal (quad_normal()), and e a small share of a^2 + b^2, so that
+    /// small quads beside large ones count as much.
     double distortion(Index v) const
     {
         constexpr double kSmall = 5e-4;
@@ -572,7 +662,7 @@ private:
         for (Index place = offsets_[v]; place < offsets_[v + 1]; ++place) {
             const auto& quad = mesh_.quads[quads_[place]];
             const std::array<Vec3, 4> c = corners(quad);
-            Vec3 normal = up(quad);
+            Vec3 normal = quad_normal(c, up(quad));
             normal /= std::max(normal.norm(), 1e-300);
             for (std::size_t i = 0; i < 4; ++i) {
                 const Vec3 a = c[(i + 1) % 4] - c[i];
@@ -586,18 +676,25 @@ private:
         return sum;
     }
 
+    /// Lowers the energy of all vertices together, the softer it is the earlier.
+    bool unfold_softly()
+    {
+        const bool inflates = stage_ == Stage::inflate;
+        if (free_.empty() || (!inflates && flipped_quads() == 0)) {
+            return false;
+        }
+        softness_ =
+            round_ == 0 ? kMostSoftness : std::max(softness_ * kSoftnessPerRound, kLeastSoftness);
+        unfold_quads(target_, normals_, free_, around_free_, {softness_, inflates}, mesh_);
+        return true;
+    }
+
     /// Lowers the energy of all vertices together. Folds may close on the way: the round with the
     /// fewest counts.
     bool unfold()
     {
         if (round_ == 0) {
             keep_unfolded();
-            for (Index v = 0; v < mesh_.positions.size(); ++v) {
-                if (!fixed_[v]) {
-                    free_.push_back(v);
-                }
-            }
-            around_free_ = quads_around(free_);
         }
         if (least_unfolded_ == 0 || free_.empty()) {
             return false;
@@ -724,16 +821,22 @@ private:
     std::vector<bool> fixed_;
     Index rounds_;
     QuadMesh& mesh_;
-    Stage stage_ = Stage::smooth;
+    Stage stage_ = Stage::inflate;
     Index round_ = 0;  // of the stage
+    std::size_t way_ = 0;
+    Places first_;
+    Places best_;
+    Index least_of_ways_ = kNone;
     int turn_ = 0;
     int turns_in_vain_ = 0;
     Index least_flipped_ = kNone;
-    // While all unfold.
+    // All vertices that are not fixed, and the quads around them.
     std::vector<Index> free_;
     std::vector<Index> around_free_;
+    // While all unfold.
+    double softness_ = 0;
     Index least_unfolded_ = kNone;
-    std::pair<std::vector<SurfacePoint>, std::vector<Vec3>> unfolded_;
+    Places unfolded_;
     // While neighbourhoods are placed anew: the next quad, and in which way.
     Index reopened_quad_ = 0;
     std::size_t reopening_ = 0;

@@ -15,6 +15,10 @@ namespace layout_embedding {
 /// and the worst ones mended, by turns, for as long as fewer stay flipped; and neighbourhoods of
 /// what is flipped even so are placed anew where that helps, after which `rounds` rounds even them
 /// out.
+///
+/// Where quads stay flipped, all begins anew, up to four times, with rounds in which all vertices
+/// lower the energy together, however folded the quads are: towards quads of one size first, then
+/// of any. The mesh with the fewest flipped quads counts.
 class QuadRelaxation {
 public:
     /// `target` and `mesh` must outlive this; `fixed` says so of every vertex.

@@ -6,12 +6,15 @@
 
 namespace layout_embedding {
 
+Vec3 quad_normal(const std::array<Vec3, 4>& corners, const Vec3& up)
+{
+    const Vec3 own = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
+    return own.dot(up) <= 0 ? up : own;
+}
+
 double scaled_jacobian(const std::array<Vec3, 4>& corners, const Vec3& up)
 {
-    Vec3 normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
-    if (normal.dot(up) <= 0) {
-        normal = up;
-    }
+    const Vec3 normal = quad_normal(corners, up);
     const double length = normal.norm();
     if (!(length > 0)) {
         return -1;

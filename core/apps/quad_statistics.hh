@@ -27,8 +27,11 @@ struct QuadStatistics {
     double largest_edge = 0;
 };
 
-/// The smallest scaled Jacobian of a quad as seen from its own normal, which is turned over where
-/// it points away from `up`, the surface's normal there.
+/// The normal from which the corners of a quad are seen, not of length 1: its own, which is normal
+/// to both diagonals, or `up`, the surface's normal there, where that points the other way.
+Vec3 quad_normal(const std::array<Vec3, 4>& corners, const Vec3& up);
+
+/// The smallest scaled Jacobian of a quad as seen from quad_normal().
 double scaled_jacobian(const std::array<Vec3, 4>& corners, const Vec3& up);
 
 /// `ups`: per quad, the surface's normal there.

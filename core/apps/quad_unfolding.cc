@@ -37,8 +37,9 @@ public:
                 quad.corners[i] = mesh.positions[v];
                 up += normals[mesh.points[v].face];
             }
-            quad.up = up / std::max(up.norm(), 1e-300);
             const auto& c = quad.corners;
+            const Vec3 normal = quad_normal(c, up);
+            quad.up = normal / std::max(normal.norm(), 1e-300);
             for (std::size_t i = 0; i < 4; ++i) {
                 quad.size += (c[(i + 1) % 4] - c[i]).squaredNorm() / 4;
             }

@@ -377,20 +377,25 @@ TEST_P(QuadsOfShapes, have_no_flipped_quads_and_the_same_connectivity_for_all_me
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, QuadsOfShapes,
-                         testing::Values("hand", "bust", "machine_part", "cut_hand", "fish", "bird",
-                                         "face", "cup"),
+                         testing::Values("quadruped", "hand", "bust", "machine_part", "cut_hand",
+                                         "fish", "bird", "face", "cup"),
                          [](const auto& parameter) { return parameter.param; });
 
-class DefaultQuadsOfShapes : public testing::TestWithParam<std::string> {};
+struct Pair {
+    std::string shape_class;
+    Index other;
+};
+class DefaultQuadsOfShapes : public testing::TestWithParam<Pair> {};
 
 TEST_P(DefaultQuadsOfShapes, are_none_of_them_flipped)
 {
-    // Classes whose templates leave thin patches, with as many quads as there are by default.
-    const shapes::ShapeClass& shape_class = *shapes::find_shape_class(GetParam());
+    // Templates that leave thin patches, with as many quads as there are by default.
+    const auto& [name, other] = GetParam();
+    const shapes::ShapeClass& shape_class = *shapes::find_shape_class(name);
     std::shared_ptr<const Layout> layout;
     QuadOptions options;
     std::vector<std::array<Index, 4>> first;
-    for (const Index member : {0U, 1U}) {
+    for (const Index member : {0U, other}) {
         SCOPED_TRACE(member);
         const auto shape = shapes::make_shape(shape_class, member, {2000, 0});
         ASSERT_TRUE(shape.ok()) << shape.error().message;
@@ -418,8 +423,10 @@ TEST_P(DefaultQuadsOfShapes, are_none_of_them_flipped)
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, DefaultQuadsOfShapes,
-                         testing::Values("quadruped", "plane", "vase", "pretzel"),
-                         [](const auto& parameter) { return parameter.param; });
+                         testing::Values(Pair{"quadruped", 2}, Pair{"plane", 1}, Pair{"vase", 1},
+                                         Pair{"pretzel", 1}, Pair{"bird", 8},
+                                         Pair{"machine_part", 5}),
+                         [](const auto& parameter) { return parameter.param.shape_class; });
 
 }  // namespace
 }  // namespace layout_embedding
