@@ -194,10 +194,10 @@ void ClassEnumeration::relax(const Origin& from, Index dart, Index slot, Index s
     queue_.push({estimate, along.head == goal_ ? found | kIsGoal : found, along.head});
 }
 
+/// Neighbouring states with the same word are in neighbouring buckets, as they come up together.
 std::size_t ClassEnumeration::bucket(Index state, Index word) const
 {
-    const std::uint64_t key = (std::uint64_t{word} << 32U) | state;
-    return (key * kHashFactor >> 32U) & (buckets_.size() - 1);
+    return (state + (word * kHashFactor >> 32U)) & (buckets_.size() - 1);
 }
 
 /// The label of a state with a word, which is in this bucket if there is one; kNone.
