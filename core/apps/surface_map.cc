@@ -1,6 +1,7 @@
 #include "apps/surface_map.hh"
 
 #include <algorithm>
+#include <cmath>
 
 #include "embedding/realisation.hh"
 #include "maps/exact_location.hh"
@@ -16,6 +17,8 @@ namespace {
 /// by, passes over the paths where one does with its rounds.
 constexpr double kLeastEnergyGain = 1e-3;
 constexpr double kLeastPassGain = 2e-2;
+/// What is ahead after a pass over the paths, as a share of what was ahead before it.
+constexpr double kPassesAhead = 0.6;
 constexpr double kIsometry = 4;
 
 }  // namespace
@@ -71,7 +74,9 @@ double SurfaceMapJob::progress() const
         part = options_.rounds > 0 ? rounds_share * std::min(1.0, (round_ + done) / options_.rounds)
                                    : rounds_share;
     }
-    return std::min(1.0, (pass_ + part) / (options_.seam_passes + 1));
+    // How many passes it takes is not known: most end after two or three, each counts less.
+    const auto share = [](double passes) { return 1 - std::pow(kPassesAhead, passes); };
+    return std::min(1.0, share(pass_ + part) / share(options_.seam_passes + 1.0));
 }
 
 void SurfaceMapJob::end_optimisation()
