@@ -11,6 +11,8 @@ constexpr double kActivityDecay = 0.95;
 constexpr double kMaxActivity = 1e100;
 constexpr std::uint64_t kRestartUnit = 64;
 constexpr Index kGoodDistance = 3;  // learned clauses of few blocks are kept
+// After forgetting learned clauses, the next time is when there are so many more than this time.
+constexpr std::uint64_t kForgetLater = 200;
 // Clauses looked at per unit of work: an expanded node of a path search takes about as long.
 constexpr std::uint64_t kClausesPerWork = 12;
 // Words of a set of exclusions gone through in the time of looking at a clause.
@@ -40,8 +42,7 @@ std::uint64_t luby(std::uint64_t i)
 SatSolver::Literal SatSolver::add_variable(bool preferred)
 {
     const Index variable = variable_count();
-    const Value phase = preferred ? 0 : 1;
-    assigns_.push_back(kUnassigned);
+    const Sign phase = preferred ? 0 : 1;
     phases_.push_back(phase);
     preferred_.push_back(phase);
     levels_.push_back(0);
@@ -49,7 +50,9 @@ SatSolver::Literal SatSolver::add_variable(bool preferred)
     activities_.push_back(0);
     heap_places_.push_back(kNone);
     seen_.push_back(0);
-    model_.push_back(phase);
+    values_.resize(values_.size() + 2, Value::open);
+    model_.push_back(preferred ? Value::holds : Value::fails);
+    model_.push_back(preferred ? Value::fails : Value::holds);
     watches_.resize(watches_.size() + 2);
     implied_.resize(implied_.size() + 2);
     heap_places_[variable] = static_cast<Index>(heap_.size());
@@ -142,7 +145,8 @@ void SatSolver::add_clause(std::span<const Literal> literals)
 void SatSolver::assign(Literal l, Clause reason)
 {
     const Index variable = l / 2;
-    assigns_[variable] = static_cast<Value>(l & 1U);
+    values_[l] = Value::holds;
+    values_[negate(l)] = Value::fails;
     levels_[variable] = level();
     reasons_[variable] = reason;
     trail_.push_back(l);
@@ -245,10 +249,13 @@ void SatSolver::go_back(Index to)
     }
     const Index start = level_starts_[to];
     for (std::size_t i = trail_.size(); i-- > start;) {
-        const Index variable = trail_[i] / 2;
-        phases_[variable] = assigns_[variable];
-        assigns_[variable] = kUnassigned;
-        if ((trail_[i] & 1U) != 0 && is_member(variable)) {
+        const Literal l = trail_[i];
+        const Index variable = l / 2;
+        const Sign sign = l & 1U;
+        phases_[variable] = sign;
+        values_[l] = Value::open;
+        values_[negate(l)] = Value::open;
+        if (sign != 0 && is_member(variable)) {
             excluded_members_.erase(members_[variable]);
         }
         if (heap_places_[variable] == kNone) {
@@ -418,9 +425,10 @@ Index SatSolver::take_most_active()
     return variable;
 }
 
-/// Drops the worse half of the learned clauses; at level 0.
+/// Drops the worse half of the learned clauses; at level 0, when all conclusions are drawn.
 void SatSolver::forget()
 {
+    forget_at_ += kForgetLater;
     std::vector<Clause> by_quality = learned_;
     std::stable_sort(by_quality.begin(), by_quality.end(), [&](Clause a, Clause b) {
         return distance(a) != distance(b) ? distance(a) < distance(b) : size(a) < size(b);
@@ -467,7 +475,21 @@ void SatSolver::forget()
 
 void SatSolver::begin(std::span<const Literal> assumptions)
 {
-    go_back(0);
+    Index kept = 0;
+    if (knows_much()) {
+        go_back(0);
+        if (!contradictory_) {
+            forget();
+        }
+    } else {
+        // What follows from the assumptions in front that are the same as last time stays.
+        const std::size_t common =
+            std::min({assumptions.size(), assumptions_.size(), level_starts_.size()});
+        while (kept < common && assumptions[kept] == assumptions_[kept]) {
+            ++kept;
+        }
+        go_back(kept);
+    }
     phases_ = preferred_;
     assumptions_.assign(assumptions.begin(), assumptions.end());
     core_.clear();
@@ -496,7 +518,7 @@ SatSolver::Outcome SatSolver::run(WorkBudget& budget)
             }
             const Index back = learn(conflict);
             ++level_mark_;
-            level_marks_.resize(assigns_.size() + 1, 0);
+            level_marks_.resize(levels_.size() + 1, 0);
             Index blocks = 0;
             for (const Literal l : clause_) {
                 Index& mark = level_marks_[levels_[l / 2]];
@@ -522,12 +544,11 @@ SatSolver::Outcome SatSolver::run(WorkBudget& budget)
         if (restart_conflicts_ >= kRestartUnit * luby(restarts_)) {
             ++restarts_;
             restart_conflicts_ = 0;
-            go_back(learned_.size() >= forget_at_
-                        ? 0
-                        : std::min(level(), static_cast<Index>(assumptions_.size())));
-            if (learned_.size() >= forget_at_) {
-                forget_at_ += 500;
+            if (knows_much()) {
+                go_back(0);
                 forget();
+            } else {
+                go_back(std::min(level(), static_cast<Index>(assumptions_.size())));
             }
             continue;
         }
@@ -546,12 +567,12 @@ SatSolver::Outcome SatSolver::run(WorkBudget& budget)
         }
         while (next == kNone && !heap_.empty()) {
             const Index variable = take_most_active();
-            if (assigns_[variable] == kUnassigned) {
+            if (values_[2 * variable] == Value::open) {
                 next = 2 * variable + phases_[variable];
             }
         }
         if (next == kNone) {
-            model_ = assigns_;
+            model_ = values_;
             return Outcome::satisfiable;
         }
         level_starts_.push_back(static_cast<Index>(trail_.size()));

@@ -43,7 +43,7 @@ public:
     Literal add_variable(bool preferred = false);
     /// A new variable that stands for a member of the exclusions.
     Literal add_member(Index member, bool preferred = false);
-    Index variable_count() const { return static_cast<Index>(assigns_.size()); }
+    Index variable_count() const { return static_cast<Index>(levels_.size()); }
     /// Of the literals, at least one holds. Not while a call is `running`.
     void add_clause(std::span<const Literal> literals);
     void add_clause(std::initializer_list<Literal> literals)
@@ -61,23 +61,26 @@ public:
     bool stopped() const { return conflicts_left_ == 0; }
 
     /// After `satisfiable`: whether a literal holds.
-    bool holds(Literal l) const { return model_[l / 2] == (l & 1U); }
+    bool holds(Literal l) const { return model_[l] == Value::holds; }
     /// After `unsatisfiable`: assumptions that cannot hold together; empty if the clauses alone
     /// contradict each other.
     const std::vector<Literal>& core() const { return core_; }
     /// Whether the clauses alone say that a literal holds.
-    bool is_fixed(Literal l) const { return assigns_[l / 2] == (l & 1U) && levels_[l / 2] == 0; }
+    bool is_fixed(Literal l) const { return is_true(l) && levels_[l / 2] == 0; }
 
     std::uint64_t conflict_count() const { return conflict_count_; }
+    /// Clauses of three literals or more that were learned and are not forgotten.
+    std::size_t learned_count() const { return learned_.size(); }
 
 private:
-    using Value = std::uint8_t;  // the sign of the literal that holds; kUnassigned
-    static constexpr Value kUnassigned = 2;
+    enum class Value : std::uint8_t { open, holds, fails };
+    using Sign = std::uint8_t;  // of a literal: 1 if it is negated
 
     // A clause of three literals or more is a place in arena_: size, then block distance (0: not
     // learned), then literals. One of two is known by one of them, with the mark kBinary, where it
     // says why the other one holds.
     using Clause = Index;
+    static constexpr std::uint64_t kFirstForgetting = 2000;  // learned clauses
     static constexpr Clause kBinary = Index{1} << 31U;
     struct Watch {
         Clause clause;
@@ -89,8 +92,8 @@ private:
     Literal* literals(Clause c) { return arena_.data() + c + 2; }
     std::span<const Literal> literals(Clause c, Literal other);
 
-    bool is_true(Literal l) const { return assigns_[l / 2] == (l & 1U); }
-    bool is_false(Literal l) const { return assigns_[l / 2] == ((l & 1U) ^ 1U); }
+    bool is_true(Literal l) const { return values_[l] == Value::holds; }
+    bool is_false(Literal l) const { return values_[l] == Value::fails; }
     Index level() const { return static_cast<Index>(level_starts_.size()); }
 
     Clause store(std::span<const Literal> literals, Index block_distance);
@@ -109,6 +112,7 @@ private:
     Index take_most_active();
     void sift_up(Index place);
     void sift_down(Index place);
+    bool knows_much() const { return learned_.size() >= forget_at_; }
     void forget();
 
     const Exclusions* exclusions_ = nullptr;
@@ -122,9 +126,9 @@ private:
     std::vector<std::vector<Watch>> watches_;  // per literal: clauses to look at when it gets false
     std::array<Literal, 2> pair_;              // a clause of two literals
     Literal violated_ = kNone;                 // one literal of the clause violated
-    std::vector<Value> assigns_;
-    std::vector<Value> phases_;
-    std::vector<Value> preferred_;
+    std::vector<Value> values_;                // per literal
+    std::vector<Sign> phases_;                 // per variable: of the literal to try first
+    std::vector<Sign> preferred_;
     std::vector<Index> levels_;
     std::vector<Clause> reasons_;
     std::vector<Literal> trail_;
@@ -151,7 +155,7 @@ private:
     std::uint64_t uncharged_ = 0;  // literals and clauses looked at
     std::uint64_t restart_conflicts_ = 0;
     std::uint64_t restarts_ = 0;
-    std::uint64_t forget_at_ = 4000;
+    std::uint64_t forget_at_ = kFirstForgetting;
 };
 
 }  // namespace layout_embedding

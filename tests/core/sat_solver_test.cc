@@ -96,31 +96,92 @@ TEST(SatSolver, agrees_with_brute_force_while_clauses_are_added)
     EXPECT_GT(unsatisfiable, 200);
 }
 
+/// Pigeons that sit in one of a few holes each, alone, or stay out.
+struct Pigeons {
+    Pigeons(SatSolver& solver, Index pigeons, Index holes)
+    {
+        std::vector<std::vector<Literal>> sits(pigeons);
+        for (auto& pigeon : sits) {
+            stays_out.push_back(solver.add_variable());
+            for (Index hole = 0; hole < holes; ++hole) {
+                pigeon.push_back(solver.add_variable());
+            }
+            auto clause = pigeon;
+            clause.push_back(stays_out.back());
+            solver.add_clause(clause);
+        }
+        for (Index hole = 0; hole < holes; ++hole) {
+            for (Index a = 0; a < pigeons; ++a) {
+                for (Index b = 0; b < a; ++b) {
+                    solver.add_clause(
+                        {SatSolver::negate(sits[a][hole]), SatSolver::negate(sits[b][hole])});
+                }
+            }
+        }
+    }
+
+    std::vector<Literal> stays_out;  // per pigeon
+};
+
 TEST(SatSolver, refutes_pigeons_in_too_few_holes)
 {
     // Long enough for restarts and for learned clauses to be dropped.
-    constexpr Index kHoles = 7;
     SatSolver solver;
-    std::vector<std::vector<Literal>> sits(kHoles + 1);
-    for (auto& pigeon : sits) {
-        for (Index hole = 0; hole < kHoles; ++hole) {
-            pigeon.push_back(solver.add_variable());
-        }
-        solver.add_clause(pigeon);
-    }
-    for (Index hole = 0; hole < kHoles; ++hole) {
-        for (Index a = 0; a <= kHoles; ++a) {
-            for (Index b = 0; b < a; ++b) {
-                solver.add_clause(
-                    {SatSolver::negate(sits[a][hole]), SatSolver::negate(sits[b][hole])});
-            }
-        }
+    const Pigeons pigeons(solver, 8, 7);
+    for (const Literal out : pigeons.stays_out) {
+        solver.add_clause({SatSolver::negate(out)});
     }
     solver.begin({});
     WorkBudget budget;
     EXPECT_EQ(solver.run(budget), SatSolver::Outcome::unsatisfiable);
     EXPECT_TRUE(solver.core().empty());
     EXPECT_GT(solver.conflict_count(), 4000U);
+}
+
+TEST(SatSolver, forgets_between_short_calls_and_answers_stay_right)
+{
+    constexpr Index kHoles = 6;
+    Random random(3);
+    SatSolver solver;
+    const Pigeons pigeons(solver, 10, kHoles);
+    std::vector<Literal> assumptions;
+    int refuted = 0;
+    int placed = 0;
+    int given_up = 0;
+    while (solver.conflict_count() < 20'000) {
+        // Calls that have assumptions in common, as where cores are made smaller.
+        if (assumptions.empty() || random.below(4) == 0) {
+            assumptions.clear();
+            for (const Literal out : pigeons.stays_out) {
+                if (random.below(4) != 0) {
+                    assumptions.push_back(SatSolver::negate(out));
+                }
+            }
+        } else {
+            assumptions.erase(assumptions.begin() +
+                              static_cast<std::ptrdiff_t>(random.below(assumptions.size())));
+        }
+        solver.begin(assumptions);
+        solver.limit_conflicts(100);
+        auto outcome = SatSolver::Outcome::running;
+        while (outcome == SatSolver::Outcome::running && !solver.stopped()) {
+            WorkBudget budget(1 + random.below(50));
+            outcome = solver.run(budget);
+        }
+        if (outcome == SatSolver::Outcome::satisfiable) {
+            ++placed;
+            ASSERT_LE(assumptions.size(), kHoles);
+        } else if (outcome == SatSolver::Outcome::unsatisfiable) {
+            ++refuted;
+            ASSERT_GT(solver.core().size(), kHoles);
+        } else {
+            ++given_up;
+        }
+    }
+    EXPECT_GT(placed, 100);
+    EXPECT_GT(refuted, 10);
+    EXPECT_GT(given_up, 10);
+    EXPECT_LT(solver.learned_count(), solver.conflict_count() / 2);
 }
 
 /// A random problem that grows, and its optimum by trying all assignments.
