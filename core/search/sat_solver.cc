@@ -565,7 +565,8 @@ SatSolver::Outcome SatSolver::run(WorkBudget& budget)
                 break;
             }
         }
-        while (next == kNone && !heap_.empty()) {
+        const bool is_complete = trail_.size() == variable_count();
+        while (next == kNone && !is_complete && !heap_.empty()) {
             const Index variable = take_most_active();
             if (values_[2 * variable] == Value::open) {
                 next = 2 * variable + phases_[variable];
