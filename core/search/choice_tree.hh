@@ -9,6 +9,7 @@
 
 #include "base/types.hh"
 #include "search/choice_relaxation.hh"
+#include "search/selection_outcome.hh"
 #include "search/work_budget.hh"
 
 namespace layout_embedding {
@@ -22,20 +23,7 @@ namespace layout_embedding {
 /// time: what was decided stays, a class that becomes known was part of the rest.
 class ChoiceTree {
 public:
-    enum class Outcome {
-        running,
-        /// lower_bound() has risen.
-        raised,
-        /// What is known is nearly used up: the relaxation takes the rest of some edges (wanted()),
-        /// and to know more of their classes would raise the bound. Once for what is known.
-        wants_classes,
-        /// There is a choice (choice()), not known to be the cheapest.
-        satisfied,
-        /// The choice costs lower_bound(): there is none cheaper.
-        optimal,
-        /// Every choice costs at least the upper bound.
-        exceeded,
-    };
+    using Outcome = SelectionOutcome;
 
     /// Only choices cheaper than `upper_bound`, which is finite, matter.
     ChoiceTree(Index edge_count, Length upper_bound);
@@ -59,7 +47,8 @@ public:
     /// Not all of these classes can be chosen together.
     void forbid(std::span<const Index> walks);
 
-    /// Continues until something happens or the budget is spent.
+    /// Continues until something happens or the budget is spent. `wants_classes`: the relaxation
+    /// takes the rest of some edges (wanted()); once for what is known.
     Outcome run(WorkBudget& budget);
     /// After `satisfied` or `optimal`: the walk of the class chosen, kNone for the rest.
     Index choice(Index edge) const { return choices_[edge]; }

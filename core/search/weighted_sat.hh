@@ -8,6 +8,7 @@
 
 #include "base/types.hh"
 #include "search/sat_solver.hh"
+#include "search/selection_outcome.hh"
 #include "search/work_budget.hh"
 
 namespace layout_embedding {
@@ -24,17 +25,7 @@ public:
     using Literal = SatSolver::Literal;
     static Literal negate(Literal l) { return SatSolver::negate(l); }
 
-    enum class Outcome {
-        running,
-        /// lower_bound() has risen.
-        raised,
-        /// There is an assignment (holds()), not known to be the cheapest.
-        satisfied,
-        /// There is an assignment that costs lower_bound(): the cheapest.
-        optimal,
-        /// Every assignment costs at least the upper bound.
-        exceeded,
-    };
+    using Outcome = SelectionOutcome;
 
     WeightedSat() = default;
     /// Keeps a reference.
@@ -60,7 +51,7 @@ public:
     /// Assignments of this cost or more do not matter. Only ever lowered.
     void lower_upper_bound(Length cost);
 
-    /// Continues until something happens.
+    /// Continues until something happens; a choice is an assignment (holds()) here.
     Outcome run(WorkBudget& budget);
     /// Leaves a step that is `running`, so that something may be added; what was learned stays.
     void interrupt()
