@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "apps/boundary_paths.hh"
+#include "apps/path_shaping.hh"
 #include "embedding/angle_refinement.hh"
 #include "embedding/angle_widening.hh"
 #include "embedding/check_input.hh"
@@ -12,7 +13,6 @@
 #include "embedding/realisation.hh"
 #include "embedding/straightening.hh"
 #include "embedding/weak_to_normal_form.hh"
-#include "patches/fairing.hh"
 #include "search/exact_solver.hh"
 #include "search/given_solver.hh"
 #include "search/greedy_solver.hh"
@@ -115,9 +115,7 @@ struct EmbedJob::Implementation {
     std::uint64_t first_embedding_work = UINT64_MAX;
     EmbedStatus final_status = EmbedStatus::running;  // once an incumbent is to be realised
     EmbedStatus search_status = EmbedStatus::running;
-    std::unique_ptr<Straightening> straightening;  // while paths get their shape
-    std::unique_ptr<Fairing> fairing;              // after that, for fair ones
-    bool shape_ended = false;                      // by cancel()
+    std::unique_ptr<PathShaping> shaping;  // while paths get their shape
     double shown_progress = 0;
     Length root_bound = 0;
     std::vector<BoundaryPath> boundary;  // that paths are to follow
@@ -250,11 +248,9 @@ struct EmbedJob::Implementation {
                  ? RepulsiveGuide::estimate_bytes(target.vertex_count(),
                                                   problem.layout->vertex_count())
                  : 0);
-        for (const Status& possible : {check_metric(), check_weights()}) {
-            if (!possible) {
-                fail(EmbedStatus::failed, possible.error());
-                return;
-            }
+        if (const Status possible = check_options(options, problem); !possible) {
+            fail(EmbedStatus::failed, possible.error());
+            return;
         }
         problem.weights = EdgeWeights(options.edge_weights);
         if (needed > options.memory_limit) {
@@ -273,49 +269,6 @@ struct EmbedJob::Implementation {
         }
     }
 
-    Status check_metric() const
-    {
-        const auto& [costs, discount] = options.metric;
-        const Index vertices = problem.target->vertex_count();
-        if (!costs.empty() && costs.size() != vertices) {
-            return make_error(ErrorCode::invalidOption,
-                              std::to_string(costs.size()) + " vertex costs are given for the " +
-                                  std::to_string(vertices) + " vertices of the target");
-        }
-        for (Index v = 0; v < costs.size(); ++v) {
-            if (!(costs[v] >= kMinPathCost && costs[v] <= kMaxPathCost)) {
-                return make_error(ErrorCode::invalidOption, "the cost of length at target vertex " +
-                                                                std::to_string(v) +
-                                                                " is not from 0.001 to 1000");
-            }
-        }
-        if (!(discount >= 0 && discount <= kMaxFeatureDiscount)) {
-            return make_error(ErrorCode::invalidOption,
-                              "the discount along sharp edges is not from 0 to 0.95");
-        }
-        return {};
-    }
-
-    Status check_weights() const
-    {
-        const auto& weights = options.edge_weights;
-        const Index edges = problem.layout->edge_count();
-        if (!weights.empty() && weights.size() != edges) {
-            return make_error(ErrorCode::invalidOption,
-                              std::to_string(weights.size()) + " weights are given for the " +
-                                  std::to_string(edges) + " edges of the layout");
-        }
-        for (Index e = 0; e < weights.size(); ++e) {
-            if (!(weights[e] >= kMinEdgeWeight && weights[e] <= kMaxEdgeWeight)) {
-                return make_error(
-                    ErrorCode::invalidOption,
-                    "the weight of layout edge " + std::to_string(e) + " is not from 0.001 to 1000",
-                    {{"edge", e}});
-            }
-        }
-        return {};
-    }
-
     /// False if that ended the job.
     bool build_solver()
     {
@@ -327,21 +280,9 @@ struct EmbedJob::Implementation {
         graph = std::make_unique<PathGraph>(make_graph(
             *problem.target,
             {options.seed, attempt, metric.vertex_costs, edge_costs, problem.weights.largest()}));
-        if (!options.constraints.empty() && options.algorithm != Algorithm::exact) {
-            fail(EmbedStatus::failed,
-                 make_error(ErrorCode::invalidOption,
-                            "paths are to be kept or avoided, which only the exact method can do"));
-            return false;
-        }
         auto constraints = class_constraints(problem, *graph, options.constraints);
         if (!constraints) {
             fail(EmbedStatus::failed, constraints.error());
-            return false;
-        }
-        if (!options.excluded.empty() && options.algorithm != Algorithm::exact) {
-            fail(EmbedStatus::failed,
-                 make_error(ErrorCode::invalidOption,
-                            "embeddings are to be excluded, which only the exact method can do"));
             return false;
         }
         auto excluded = embedding_darts(problem, *graph, options.excluded);
@@ -352,13 +293,6 @@ struct EmbedJob::Implementation {
         boundary.clear();
         extra_cost = 0;
         if (options.boundary_is_followed) {
-            if (options.algorithm != Algorithm::exact) {
-                fail(EmbedStatus::failed,
-                     make_error(ErrorCode::invalidOption,
-                                "paths are to run along the target's boundary, which only the "
-                                "exact method can do"));
-                return false;
-            }
             auto paths = boundary_paths(problem, *graph);
             if (!paths) {
                 fail(EmbedStatus::failed, paths.error());
@@ -524,7 +458,7 @@ struct EmbedJob::Implementation {
     void realise_embedding()
     {
         const std::clock_t cpu_start = std::clock();
-        if (!straightening) {
+        if (!shaping) {
             result.shape_seconds = 0;
             auto form = normal_form_of(problem, *graph, result.weak, edge_costs);
             if (!form) {
@@ -539,28 +473,15 @@ struct EmbedJob::Implementation {
                 cut(even);
                 return;
             }
-            StraighteningOptions straight;
-            straight.edge_costs = edge_costs;
-            straightening =
-                std::make_unique<Straightening>(std::move(*form), problem.landmarks, straight);
-            shape_ended = false;
+            shaping =
+                std::make_unique<PathShaping>(*problem.layout, std::move(*form), problem.landmarks,
+                                              edge_costs, options.shape == PathShape::fair);
             shown_progress = 0;
-        } else if (fairing ? fairing->step() : straightening->step()) {
+        } else if (shaping->step()) {
             show_shape_progress();
-        } else if (fairing) {
-            NormalForm form = fairing->take();
-            open_angles(form, problem.landmarks, FairingOptions{}.spacing, edge_costs);
-            cut(form);
-            fairing.reset();
-            straightening.reset();
-            return;
-        } else if (options.shape == PathShape::fair && !shape_ended) {
-            FairingOptions fair;
-            fair.edge_costs = edge_costs;
-            fairing = std::make_unique<Fairing>(*problem.layout, straightening->take(), fair);
         } else {
-            cut(straightening->take());
-            straightening.reset();
+            cut(shaping->take());
+            shaping.reset();
             return;
         }
         result.shape_seconds += static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
@@ -568,10 +489,7 @@ struct EmbedJob::Implementation {
 
     void show_shape_progress()
     {
-        double progress = fairing ? fairing->progress() : straightening->progress();
-        if (options.shape == PathShape::fair) {
-            progress = (fairing ? 1 + progress : progress) / 2;
-        }
+        const double progress = shaping->progress();
         if (progress > shown_progress + kProgressStep) {
             shown_progress = progress;
             emit(EventKind::progress, progress);
@@ -615,13 +533,8 @@ struct EmbedJob::Implementation {
     /// Leaves the paths as far as they are.
     void end_shape()
     {
-        if (phase == EmbedPhase::realise && straightening) {
-            if (fairing) {
-                fairing->finish();
-            } else {
-                straightening->finish();
-            }
-            shape_ended = true;
+        if (phase == EmbedPhase::realise && shaping) {
+            shaping->finish();
             final_status = EmbedStatus::cancelled;
         }
     }

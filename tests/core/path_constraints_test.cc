@@ -123,8 +123,16 @@ TEST(GivenEmbedding, is_taken_as_it_is_or_refused)
         EXPECT_EQ(job.result().exact_cost, test::total_length(*job.graph(), job.result().weak));
         test::expect_valid(problem, *job.graph(), job.result().weak, *job.result().refined);
 
-        // A path that goes back and forth on its way is none.
+        // Nothing is searched, so nothing can be kept or ruled out.
         const auto straight = options.given[0];
+        options.constraints = {{0, true, straight}};
+        EXPECT_EQ(solve(problem).error().code, ErrorCode::invalidOption);
+        options.constraints.clear();
+        options.excluded = {options.given};
+        EXPECT_EQ(solve(problem).error().code, ErrorCode::invalidOption);
+        options.excluded.clear();
+
+        // A path that goes back and forth on its way is none.
         const auto middle = static_cast<std::ptrdiff_t>(straight.size() / 2);
         options.given[0].insert(options.given[0].begin() + middle + 1,
                                 {straight[straight.size() / 2 - 1], straight[straight.size() / 2]});
