@@ -13,7 +13,8 @@ constexpr unsigned kMaxExplorations = 4;
 // Where the selection wants classes, explorations go on beyond that, as long as all of them had
 // less than this share of all work.
 constexpr std::uint64_t kExplorationShare = 2;
-constexpr unsigned kMaxDoublings = 10;
+// But none may expand more: what it has met takes memory, about 100 bytes per expansion.
+constexpr std::uint64_t kMostExploration = 1'000'000;
 // Nothing is explored any more once so many classes are known: which of them cross takes memory for
 // all pairs.
 constexpr Index kMaxExploredClasses = 8192;
@@ -329,13 +330,14 @@ Solver::Outcome ExactSolver::explore()
     for (; next_open_ < open_.size(); ++next_open_) {
         const Index edge = open_[next_open_].edge;
         Exploration& exploration = explorations_[edge];
-        if ((!is_wanted_ && exploration.rounds >= kMaxExplorations) ||
-            selection_.class_count() >= kMaxExploredClasses ||
+        const bool is_over = is_wanted_ ? first << exploration.rounds > kMostExploration
+                                        : exploration.rounds >= kMaxExplorations;
+        if (is_over || selection_.class_count() >= kMaxExploredClasses ||
             (space_.incumbent.exists() && exploration.frontier >= base(edge) + slack)) {
             continue;
         }
         Length limit = kInfiniteLength;
-        const unsigned rounds = std::min(exploration.rounds++, kMaxDoublings);
+        const unsigned rounds = exploration.rounds++;
         if (space_.incumbent.exists()) {
             const Length share = slack / open_.size() + 1;
             const unsigned doublings = kFirstShares + rounds;
