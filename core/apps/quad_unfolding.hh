@@ -1,11 +1,22 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "apps/quad_mesh.hh"
 #include "mesh/triangle_mesh.hh"
 
 namespace layout_embedding {
+
+/// Unfolding begins soft and ends hard.
+inline constexpr double kMostSoftness = 0.2;
+inline constexpr double kLeastSoftness = 1e-4;
+/// That of the next round.
+inline double harder(double softness)
+{
+    constexpr double kPerRound = 0.85;
+    return std::max(softness * kPerRound, kLeastSoftness);
+}
 
 /// How unfold_quads() judges quads.
 struct UnfoldingMeasure {

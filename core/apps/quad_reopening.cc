@@ -1,0 +1,191 @@
+#include "apps/quad_reopening.hh"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "apps/quad_vertex_moves.hh"
+
+namespace layout_embedding {
+namespace {
+
+/// What opens a fold: vertices spread out as means of their neighbours, lower their energy one
+/// by one whatever that flips on the way, or unfold together: at once, softly at first, or to
+/// quads of one size.
+enum class Opening : std::uint8_t { spread, lower, unfold, soften, inflate };
+}  // namespace
+
+struct ReopeningAttempt {
+    int rings;
+    Opening opening;
+    /// Moves what is around a landmark back onto it first; for quads at landmarks.
+    bool centres = false;
+};
+
+namespace {
+
+constexpr std::array<ReopeningAttempt, 31> kAttempts{{
+    {4, Opening::soften, true},   {8, Opening::soften, true}, {4, Opening::inflate, true},
+    {8, Opening::inflate, true},  {2, Opening::unfold},       {2, Opening::soften},
+    {3, Opening::unfold},         {3, Opening::inflate},      {1, Opening::spread},
+    {2, Opening::spread},         {2, Opening::inflate},      {2, Opening::lower},
+    {5, Opening::unfold},         {5, Opening::soften},       {5, Opening::inflate},
+    {3, Opening::spread},         {4, Opening::lower},        {8, Opening::unfold},
+    {8, Opening::soften},         {8, Opening::inflate},      {5, Opening::spread},
+    {8, Opening::spread},         {8, Opening::lower},        {12, Opening::unfold},
+    {12, Opening::inflate},       {16, Opening::unfold},      {12, Opening::soften, true},
+    {12, Opening::inflate, true}, {16, Opening::soften},      {16, Opening::inflate},
+    {24, Opening::unfold},
+}};
+
+}  // namespace
+
+bool QuadReopening::step()
+{
+    if (moves_ > most_moves_) {
+        return false;
+    }
+    while (quad_ < quads_.quad_count() && !quads_.is_flipped(quad_)) {
+        ++quad_;
+    }
+    if (quad_ < quads_.quad_count()) {
+        has_helped_ = reopen(quad_++, kAttempts[attempt_]) || has_helped_;
+        return true;
+    }
+    // What has helped with one quad may help with those that are left.
+    if (!has_helped_) {
+        ++attempt_;
+    }
+    has_helped_ = false;
+    quad_ = 0;
+    return attempt_ < kAttempts.size() && quads_.flipped_quads() > 0;
+}
+
+/// Unfolds the vertices within some rings around a quad together, or spreads them evenly, as
+/// means of their neighbours, which opens folds, too, or lowers their energy one by one
+/// whatever that flips on the way; and then improves what is around them. All stays as it was
+/// unless fewer quads are flipped.
+bool QuadReopening::reopen(Index quad, const ReopeningAttempt& attempt)
+{
+    constexpr int kRoundsPerRing = 10;
+    constexpr int kTurns = 3;
+    constexpr int kImprovingRounds = 15;
+    constexpr int kMendingRounds = 5;
+    const std::vector<Index> inside = quads_.free_vertices_around(quad, attempt.rings);
+    const std::vector<Index> touched = quads_.quads_around(inside);
+    const auto flipped = [&] {
+        return std::count_if(touched.begin(), touched.end(),
+                             [&](Index q) { return quads_.is_flipped(q); });
+    };
+    const Index landmark = attempt.centres ? inner_fixed_vertex(quad) : kNone;
+    if (attempt.centres && landmark == kNone) {
+        return false;
+    }
+    const auto before = flipped();
+    std::vector<MovableQuads::Place> places;
+    for (const Index v : inside) {
+        places.push_back(quads_.place(v));
+    }
+    const int rounds = kRoundsPerRing * std::min(attempt.rings, 8);
+    double softness = attempt.opening == Opening::unfold ? kLeastSoftness : kMostSoftness;
+    for (int round = 0; round < rounds; ++round) {
+        moves_ += inside.size();
+        if (attempt.centres) {
+            centre_on(landmark, attempt.rings - 1);
+        }
+        if (attempt.opening >= Opening::unfold) {
+            quads_.unfold(inside, touched, {softness, attempt.opening == Opening::inflate});
+            if (flipped() == 0) {
+                break;
+            }
+            softness = harder(softness);
+            continue;
+        }
+        for (const Index v : inside) {
+            if (attempt.opening == Opening::lower) {
+                lower_distortion(quads_, v, {.may_flip = true});
+                continue;
+            }
+            quads_.walk(v, quads_.place(v).point, quads_.mean_around(v));
+        }
+    }
+    for (int turn = 0; turn < kTurns && flipped() > 0; ++turn) {
+        for (int round = 0; round < kImprovingRounds && flipped() > 0; ++round) {
+            moves_ += inside.size();
+            for (const Index v : inside) {
+                lower_distortion(quads_, v);
+            }
+        }
+        for (int round = 0; round < kMendingRounds && flipped() > 0; ++round) {
+            moves_ += inside.size();
+            for (const Index v : inside) {
+                if (quads_.quality(v) < kBadQuality) {
+                    look_around(quads_, v);
+                }
+            }
+        }
+    }
+    if (flipped() < before) {
+        return true;
+    }
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        quads_.put(inside[i], places[i]);
+    }
+    return false;
+}
+
+/// A corner of a quad that is fixed and has quads all around, kNone if there is none.
+Index QuadReopening::inner_fixed_vertex(Index quad) const
+{
+    for (const Index v : quads_.quad(quad)) {
+        std::map<Index, int> sides;
+        for (const Index q : quads_.quads_at(v)) {
+            const auto& corners = quads_.quad(q);
+            const auto at = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) -
+                                                     corners.begin());
+            ++sides[corners[(at + 1) % 4]];
+            ++sides[corners[(at + 3) % 4]];
+        }
+        if (quads_.is_fixed(v) && std::all_of(sides.begin(), sides.end(),
+                                              [](const auto& side) { return side.second == 2; })) {
+            return v;
+        }
+    }
+    return kNone;
+}
+
+/// Moves what is around a fixed vertex so that this lies in the middle of its neighbours, and
+/// the less the more rings away.
+void QuadReopening::centre_on(Index centre, int rings)
+{
+    std::set<Index> found{centre};
+    std::vector<Index> ring{centre};
+    Vec3 shift(0, 0, 0);
+    for (int level = 1; level <= rings; ++level) {
+        std::set<Index> next;
+        for (const Index q : quads_.quads_around(ring)) {
+            next.insert(quads_.quad(q).begin(), quads_.quad(q).end());
+        }
+        ring.clear();
+        std::set_difference(next.begin(), next.end(), found.begin(), found.end(),
+                            std::back_inserter(ring));
+        found.insert(next.begin(), next.end());
+        if (level == 1) {
+            for (const Index v : ring) {
+                shift += (quads_.position(centre) - quads_.position(v)) / double(ring.size());
+            }
+        }
+        for (const Index v : ring) {
+            if (!quads_.is_fixed(v)) {
+                const double share = double(rings + 1 - level) / rings;
+                quads_.walk(v, quads_.place(v).point, quads_.position(v) + share * shift);
+            }
+        }
+    }
+}
+
+}  // namespace layout_embedding
