@@ -114,6 +114,16 @@ Index MovableQuads::flipped_quads() const
     return count;
 }
 
+bool MovableQuads::has_quads_up_to(double jacobian) const
+{
+    for (Index q = 0; q < mesh_.quads.size(); ++q) {
+        if (!(this->jacobian(q) > jacobian)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 double MovableQuads::quality(Index v) const
 {
     double least = 1;
@@ -132,14 +142,14 @@ Index MovableQuads::flipped_around(Index v, double least) const
     return count;
 }
 
-double MovableQuads::distortion(Index v) const
+double MovableQuads::distortion(Index v, double least_cosine) const
 {
     constexpr double kSmall = 5e-4;
     double sum = 0;
     for (const Index q : quads_at(v)) {
         const auto& quad = mesh_.quads[q];
         const std::array<Vec3, 4> c = corners(quad);
-        Vec3 normal = quad_normal(c, up(quad));
+        Vec3 normal = quad_normal(c, up(quad), least_cosine);
         normal /= std::max(normal.norm(), 1e-300);
         for (std::size_t i = 0; i < 4; ++i) {
             const Vec3 a = c[(i + 1) % 4] - c[i];

@@ -56,6 +56,8 @@ public:
 
     double jacobian(Index q) const;
     bool is_flipped(Index q) const { return !(jacobian(q) > 0); }
+    /// Some quad's scaled Jacobian is not above this.
+    bool has_quads_up_to(double jacobian) const;
     Index flipped_quads() const;
     /// The smallest scaled Jacobian of the quads at v.
     double quality(Index v) const;
@@ -63,11 +65,11 @@ public:
     Index flipped_around(Index v, double least = 0) const;
     /// How far the corners of the quads at v are from those of squares: at a corner with the edges
     /// a and b, (a^2 + b^2) / (d + sqrt(d^2 + e^2)), where d is the signed area between them as
-    /// seen along the quad's normal (quad_normal()), and e a small share of a^2 + b^2, so that
-    /// small quads beside large ones count as much. It grows as a corner becomes flat, and is
+    /// seen along quad_normal(), which `least_cosine` is for, and e a small share of a^2 + b^2, so
+    /// that small quads beside large ones count as much. It grows as a corner becomes flat, and is
     /// finite for folded ones (Escobar et al., "Simultaneous untangling and smoothing of
     /// tetrahedral meshes", 2003).
-    double distortion(Index v) const;
+    double distortion(Index v, double least_cosine = 0) const;
 
     Place place(Index v) const { return {mesh_.points[v], mesh_.positions[v]}; }
     void put(Index v, const Place& place);

@@ -27,6 +27,14 @@ struct Way {
 constexpr std::array<Way, 5> kWays{
     {{0, 0, 100}, {2, 2, 250}, {1.4, 1.4, 250}, {0, 2, 250}, {3, 3, 250}}};
 
+/// How quads that are nearly flat are lifted at the end, in this order; most_moves are per vertex
+/// of the mesh. Their own normals hide that they stand on edge, and lowering the distortion leaves
+/// those as flat as they are, so some are seen from the surface.
+constexpr std::array<ReopeningGoal, 3> kLifts{
+    {{0.1, true, 0.3, 30}, {0.1, true, 0, 20}, {0.03, false, 0.3, 100}}};
+/// Share of the work before that.
+constexpr double kRelaxed = 0.8;
+
 }  // namespace
 
 class QuadRelaxation::Implementation {
@@ -57,12 +65,21 @@ public:
 
     double progress() const
     {
-        if (stage_ == Stage::over) {
-            return 1;
+        const Index rounds = rounds_of_stage();
+        const double share = rounds > 0 ? std::min(1.0, double(round_) / rounds) : 1;
+        switch (stage_) {
+            case Stage::lift:
+                return kRelaxed + (0.98 - kRelaxed) * (double(lift_) + share) / kLifts.size();
+            case Stage::even_out:
+                return 0.98 + 0.02 * share;
+            case Stage::over:
+                return 1;
+            default:
+                break;
         }
         // Most often one of the first two ways is the last one.
         constexpr std::array<double, kWays.size() + 1> kBegins{0, 0.4, 0.9, 0.94, 0.97, 1};
-        return kBegins[way_] + (kBegins[way_ + 1] - kBegins[way_]) * progress_of_way();
+        return kRelaxed * (kBegins[way_] + (kBegins[way_ + 1] - kBegins[way_]) * progress_of_way());
     }
 
 private:
@@ -89,6 +106,8 @@ private:
                 return 0.9 + 0.05 * share;
             case Stage::resettle:
                 return 0.95 + 0.05 * share;
+            case Stage::lift:
+            case Stage::even_out:
             case Stage::over:
                 break;
         }
@@ -113,10 +132,13 @@ private:
         mend,
         reopen,
         resettle,
+        lift,
+        even_out,
         over
     };
 
     static constexpr Index kSmoothRounds = 5;
+    static constexpr Index kEveningRounds = 10;
     static constexpr int kMostTurns = 8;
     static constexpr int kMostInVain = 2;
     /// Neighbourhoods that are placed anew.
@@ -140,7 +162,10 @@ private:
             case Stage::mend:
             case Stage::resettle:
                 return rounds_;
+            case Stage::even_out:
+                return std::min(kEveningRounds, rounds_);
             case Stage::reopen:
+            case Stage::lift:
                 return rounds_ > 0 ? kMostAttempts : 0;
             case Stage::over:
                 break;
@@ -154,6 +179,7 @@ private:
         constexpr double kAll = 2;
         // At the end there are to be no more quads that are nearly flipped, either.
         constexpr double kFlat = 0.03;
+        constexpr double kPoor = 0.5;
         constexpr double kBadAtFirst = 0.2;
         constexpr double kBad = 0.1;
         switch (stage_) {
@@ -172,7 +198,10 @@ private:
             case Stage::mend:
                 return mend();
             case Stage::reopen:
+            case Stage::lift:
                 return reopening_->step();
+            case Stage::even_out:
+                return untangle(kPoor, {.floor = kLifts.front().floor});
             case Stage::over:
                 break;
         }
@@ -212,6 +241,12 @@ private:
             case Stage::resettle:
                 end_way();
                 break;
+            case Stage::lift:
+                begin_lift(lift_ + 1);
+                break;
+            case Stage::even_out:
+                stage_ = Stage::over;
+                break;
             case Stage::over:
                 break;
         }
@@ -234,7 +269,22 @@ private:
             return;
         }
         quads_.restore(best_);
-        stage_ = Stage::over;
+        is_lifted_ = false;
+        begin_lift(0);
+    }
+
+    void begin_lift(std::size_t lift)
+    {
+        lift_ = lift;
+        if (lift == kLifts.size() || rounds_ == 0) {
+            stage_ = is_lifted_ ? Stage::even_out : Stage::over;
+            return;
+        }
+        ReopeningGoal goal = kLifts[lift];
+        goal.most_moves *= quads_.vertex_count();
+        is_lifted_ = is_lifted_ || quads_.has_quads_up_to(goal.floor);
+        reopening_.emplace(quads_, goal);
+        stage_ = Stage::lift;
     }
 
     void end_turn()
@@ -246,7 +296,8 @@ private:
         if (flipped > 0 && turn_ < kMostTurns && turns_in_vain_ < kMostInVain) {
             stage_ = Stage::untangle;
         } else if (flipped > 0) {
-            reopening_.emplace(quads_, kWays[way_].reopening_moves * quads_.vertex_count());
+            reopening_.emplace(quads_, ReopeningGoal{.most_moves = kWays[way_].reopening_moves *
+                                                                   quads_.vertex_count()});
             stage_ = Stage::reopen;
         } else {
             end_way();
@@ -360,6 +411,8 @@ private:
     Index least_unfolded_ = kNone;
     MovableQuads::Places unfolded_;
     std::optional<QuadReopening> reopening_;
+    std::size_t lift_ = 0;
+    bool is_lifted_ = false;
 };
 
 QuadRelaxation::QuadRelaxation(const TriangleMesh& target, std::vector<bool> fixed, Index rounds,

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "apps/quad_vertex_moves.hh"
@@ -41,19 +42,35 @@ constexpr std::array<ReopeningAttempt, 31> kAttempts{{
     {12, Opening::inflate, true}, {16, Opening::soften},      {16, Opening::inflate},
     {24, Opening::unfold},
 }};
+/// That help most often where quads are not folded, but flat.
+constexpr std::array<ReopeningAttempt, 9> kBriefAttempts{{
+    {2, Opening::unfold},
+    {2, Opening::soften},
+    {3, Opening::unfold},
+    {2, Opening::lower},
+    {2, Opening::spread},
+    {3, Opening::soften},
+    {4, Opening::unfold},
+    {4, Opening::soften},
+    {6, Opening::unfold},
+}};
+/// The scaled Jacobian that unfolding aims for, in floors.
+constexpr double kMargin = 1.5;
 
 }  // namespace
 
 bool QuadReopening::step()
 {
-    if (moves_ > most_moves_) {
+    const std::span<const ReopeningAttempt> attempts =
+        goal_.is_brief ? std::span<const ReopeningAttempt>(kBriefAttempts) : kAttempts;
+    if (moves_ > goal_.most_moves) {
         return false;
     }
-    while (quad_ < quads_.quad_count() && !quads_.is_flipped(quad_)) {
+    while (quad_ < quads_.quad_count() && !is_bad(quad_)) {
         ++quad_;
     }
     if (quad_ < quads_.quad_count()) {
-        has_helped_ = reopen(quad_++, kAttempts[attempt_]) || has_helped_;
+        has_helped_ = reopen(quad_++, attempts[attempt_]) || has_helped_;
         return true;
     }
     // What has helped with one quad may help with those that are left.
@@ -62,30 +79,38 @@ bool QuadReopening::step()
     }
     has_helped_ = false;
     quad_ = 0;
-    return attempt_ < kAttempts.size() && quads_.flipped_quads() > 0;
+    return attempt_ < attempts.size() && quads_.has_quads_up_to(goal_.floor);
 }
 
 /// Unfolds the vertices within some rings around a quad together, or spreads them evenly, as
 /// means of their neighbours, which opens folds, too, or lowers their energy one by one
 /// whatever that flips on the way; and then improves what is around them. All stays as it was
-/// unless fewer quads are flipped.
+/// unless that helps.
 bool QuadReopening::reopen(Index quad, const ReopeningAttempt& attempt)
 {
     constexpr int kRoundsPerRing = 10;
     constexpr int kTurns = 3;
     constexpr int kImprovingRounds = 15;
     constexpr int kMendingRounds = 5;
+    constexpr double kLeastGain = 1e-3;
     const std::vector<Index> inside = quads_.free_vertices_around(quad, attempt.rings);
     const std::vector<Index> touched = quads_.quads_around(inside);
-    const auto flipped = [&] {
-        return std::count_if(touched.begin(), touched.end(),
-                             [&](Index q) { return quads_.is_flipped(q); });
+    const auto bad = [&] {
+        return std::count_if(touched.begin(), touched.end(), [&](Index q) { return is_bad(q); });
+    };
+    const auto worst = [&] {
+        double least = 1;
+        for (const Index q : touched) {
+            least = std::min(least, quads_.jacobian(q));
+        }
+        return least;
     };
     const Index landmark = attempt.centres ? inner_fixed_vertex(quad) : kNone;
     if (attempt.centres && landmark == kNone) {
         return false;
     }
-    const auto before = flipped();
+    const auto bad_before = bad();
+    const double worst_before = worst();
     std::vector<MovableQuads::Place> places;
     for (const Index v : inside) {
         places.push_back(quads_.place(v));
@@ -98,8 +123,10 @@ bool QuadReopening::reopen(Index quad, const ReopeningAttempt& attempt)
             centre_on(landmark, attempt.rings - 1);
         }
         if (attempt.opening >= Opening::unfold) {
-            quads_.unfold(inside, touched, {softness, attempt.opening == Opening::inflate});
-            if (flipped() == 0) {
+            quads_.unfold(inside, touched,
+                          {softness, attempt.opening == Opening::inflate, kMargin * goal_.floor,
+                           goal_.least_cosine});
+            if (bad() == 0) {
                 break;
             }
             softness = harder(softness);
@@ -107,20 +134,20 @@ bool QuadReopening::reopen(Index quad, const ReopeningAttempt& attempt)
         }
         for (const Index v : inside) {
             if (attempt.opening == Opening::lower) {
-                lower_distortion(quads_, v, {.may_flip = true});
+                lower_distortion(quads_, v, {.may_flip = true, .least_cosine = goal_.least_cosine});
                 continue;
             }
             quads_.walk(v, quads_.place(v).point, quads_.mean_around(v));
         }
     }
-    for (int turn = 0; turn < kTurns && flipped() > 0; ++turn) {
-        for (int round = 0; round < kImprovingRounds && flipped() > 0; ++round) {
+    for (int turn = 0; turn < kTurns && bad() > 0; ++turn) {
+        for (int round = 0; round < kImprovingRounds && bad() > 0; ++round) {
             moves_ += inside.size();
             for (const Index v : inside) {
-                lower_distortion(quads_, v);
+                lower_distortion(quads_, v, {.least_cosine = goal_.least_cosine});
             }
         }
-        for (int round = 0; round < kMendingRounds && flipped() > 0; ++round) {
+        for (int round = 0; round < kMendingRounds && bad() > 0; ++round) {
             moves_ += inside.size();
             for (const Index v : inside) {
                 if (quads_.quality(v) < kBadQuality) {
@@ -129,7 +156,13 @@ bool QuadReopening::reopen(Index quad, const ReopeningAttempt& attempt)
             }
         }
     }
-    if (flipped() < before) {
+    const auto bad_after = bad();
+    const double worst_after = worst();
+    const bool helps = goal_.floor > 0
+                           ? worst_after >= worst_before && bad_after <= bad_before &&
+                                 (bad_after < bad_before || worst_after > worst_before + kLeastGain)
+                           : bad_after < bad_before;
+    if (helps) {
         return true;
     }
     for (std::size_t i = 0; i < inside.size(); ++i) {

@@ -6,10 +6,11 @@
 
 namespace layout_embedding {
 
-Vec3 quad_normal(const std::array<Vec3, 4>& corners, const Vec3& up)
+Vec3 quad_normal(const std::array<Vec3, 4>& corners, const Vec3& up, double least_cosine)
 {
     const Vec3 own = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
-    return own.dot(up) <= 0 ? up : own;
+    const double least = least_cosine > 0 ? least_cosine * own.norm() * up.norm() : 0;
+    return own.dot(up) <= least ? up : own;
 }
 
 double scaled_jacobian(const std::array<Vec3, 4>& corners, const Vec3& up)

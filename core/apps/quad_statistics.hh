@@ -28,8 +28,9 @@ struct QuadStatistics {
 };
 
 /// The normal from which the corners of a quad are seen, not of length 1: its own, which is normal
-/// to both diagonals, or `up`, the surface's normal there, where that points the other way.
-Vec3 quad_normal(const std::array<Vec3, 4>& corners, const Vec3& up);
+/// to both diagonals, or `up`, the surface's normal there, where the cosine between them is not
+/// above `least_cosine`.
+Vec3 quad_normal(const std::array<Vec3, 4>& corners, const Vec3& up, double least_cosine = 0);
 
 /// The smallest scaled Jacobian of a quad as seen from quad_normal().
 double scaled_jacobian(const std::array<Vec3, 4>& corners, const Vec3& up);

@@ -15,7 +15,7 @@ public:
     UnfoldingEnergy(std::span<const Vec3> normals, std::span<const Index> vertices,
                     std::span<const Index> quads, const UnfoldingMeasure& measure,
                     const QuadMesh& mesh)
-        : inflates_(measure.inflates)
+        : inflates_(measure.inflates), margin_(measure.margin)
     {
         for (const Index v : vertices) {
             const Vec3& normal = normals[mesh.points[v].face];
@@ -38,7 +38,7 @@ public:
                 up += normals[mesh.points[v].face];
             }
             const auto& c = quad.corners;
-            const Vec3 normal = quad_normal(c, up);
+            const Vec3 normal = quad_normal(c, up, measure.least_cosine);
             quad.up = normal / std::max(normal.norm(), 1e-300);
             for (std::size_t i = 0; i < 4; ++i) {
                 quad.size += (c[(i + 1) % 4] - c[i]).squaredNorm() / 4;
@@ -55,7 +55,8 @@ public:
             for (std::size_t i = 0; i < 4; ++i) {
                 const Vec3 a = quad.corners[(i + 1) % 4] - quad.corners[i];
                 const Vec3 b = quad.corners[(i + 3) % 4] - quad.corners[i];
-                least = std::min(least, a.cross(b).dot(quad.up) / quad.size);
+                const double d = a.cross(b).dot(quad.up);
+                least = std::min(least, (d - margin_ * a.norm() * b.norm()) / quad.size);
             }
         }
         constexpr double kShare = 0.2;
@@ -89,19 +90,26 @@ public:
                 const Vec3 a = c[next] - c[i];
                 const Vec3 b = c[previous] - c[i];
                 const double d = a.cross(b).dot(quad.up);
-                const double root = std::sqrt(d * d + e * e);
-                // Without cancellation where d is negative.
-                const double below = d > 0 ? d + root : e * e / (root - d);
+                const double s = d - margin_ * a.norm() * b.norm();
+                const double root = std::sqrt(s * s + e * e);
+                // Without cancellation where s is negative.
+                const double below = s > 0 ? s + root : e * e / (root - s);
                 double squares = a.squaredNorm() + b.squaredNorm();
                 if (inflates_) {
                     squares += d * d / quad.size + quad.size;
                 }
                 const double term = squares / below;
                 sum += term;
-                // The derivative of d + root is (d + root) / root.
-                const double by_d = -term / root + (inflates_ ? 2 * d / quad.size / below : 0.0);
-                const Vec3 by_a = 2 / below * a + by_d * b.cross(quad.up);
-                const Vec3 by_b = 2 / below * b + by_d * quad.up.cross(a);
+                // The derivative of s + root is (s + root) / root.
+                const double by_s = -term / root;
+                const double by_d = by_s + (inflates_ ? 2 * d / quad.size / below : 0.0);
+                Vec3 by_a = 2 / below * a + by_d * b.cross(quad.up);
+                Vec3 by_b = 2 / below * b + by_d * quad.up.cross(a);
+                if (margin_ > 0) {
+                    const double ratio = b.norm() / std::max(a.norm(), 1e-300);
+                    by_a -= by_s * margin_ * ratio * a;
+                    by_b -= by_s * margin_ / std::max(ratio, 1e-300) * b;
+                }
                 slopes[next] += by_a;
                 slopes[previous] += by_b;
                 slopes[i] -= by_a + by_b;
@@ -130,6 +138,7 @@ private:
     };
 
     bool inflates_;
+    double margin_;
     std::vector<Frame> frames_;
     std::vector<Quad> quads_;
     double softness_ = 0;

@@ -73,14 +73,18 @@ double lower_distortion(MovableQuads& quads, Index v, const StepRule& rule)
     }
     const auto [across, along] = tangents_of(quads.normal(v));
     const auto flat_around = [&] { return rule.flat > 0 ? quads.flipped_around(v, rule.flat) : 0; };
-    const double before = quads.distortion(v);
+    const auto quality = [&] {
+        return rule.floor > 0 ? std::min(quads.quality(v), rule.floor) : 0;
+    };
+    const double worst = quality();
+    const double before = quads.distortion(v, rule.least_cosine);
     const Index flipped = quads.flipped_around(v);
     const Index flat = flat_around();
     const double h = 1e-3 * std::max(length, 1e-3 * longest);
     PlanePoint step = newton_step(
         [&, &across = across, &along = along](double x, double y) {
             quads.hold(v, old.position + x * across + y * along);
-            return quads.distortion(v);
+            return quads.distortion(v, rule.least_cosine);
         },
         before, h);
     const double size = step.norm();
@@ -93,9 +97,9 @@ double lower_distortion(MovableQuads& quads, Index v, const StepRule& rule)
     }
     for (int halving = 0; halving < kHalvings; ++halving, step /= 2) {
         quads.walk(v, old.point, old.position + step.x() * across + step.y() * along);
-        const double after = quads.distortion(v);
-        if (after < before &&
-            (rule.may_flip || (quads.flipped_around(v) <= flipped && flat_around() <= flat))) {
+        const double after = quads.distortion(v, rule.least_cosine);
+        if (after < before && (rule.may_flip || (quads.flipped_around(v) <= flipped &&
+                                                 flat_around() <= flat && quality() >= worst))) {
             return 1 - after / before;
         }
     }

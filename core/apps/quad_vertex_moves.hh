@@ -13,6 +13,10 @@ struct StepRule {
     bool may_flip = false;
     /// Leave more of them with a scaled Jacobian up to this.
     double flat = 0;
+    /// Make the worst of them worse, where it is not above this.
+    double floor = 0;
+    /// What the distortion is measured with (MovableQuads::distortion()).
+    double least_cosine = 0;
 };
 
 /// Moves v towards the mean of its neighbours, where the smallest scaled Jacobian of the quads
