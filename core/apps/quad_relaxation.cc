@@ -141,6 +141,8 @@ private:
     static constexpr Index kEveningRounds = 10;
     static constexpr int kMostTurns = 8;
     static constexpr int kMostInVain = 2;
+    /// Share of quads that are flipped.
+    static constexpr double kMostToReopen = 0.01;
     /// Neighbourhoods that are placed anew.
     static constexpr Index kMostAttempts = 600;
     /// In lengths of the edges around a vertex.
@@ -179,7 +181,6 @@ private:
         constexpr double kAll = 2;
         // At the end there are to be no more quads that are nearly flipped, either.
         constexpr double kFlat = 0.03;
-        constexpr double kPoor = 0.5;
         constexpr double kBadAtFirst = 0.2;
         constexpr double kBad = 0.1;
         switch (stage_) {
@@ -201,7 +202,7 @@ private:
             case Stage::lift:
                 return reopening_->step();
             case Stage::even_out:
-                return untangle(kPoor, {.floor = kLifts.front().floor});
+                return untangle(kAll, {.floor = kLifts.front().floor});
             case Stage::over:
                 break;
         }
@@ -227,7 +228,12 @@ private:
                 if (least_unfolded_ != kNone) {
                     quads_.restore(unfolded_);
                 }
-                stage_ = Stage::untangle;
+                // Placing very many anew takes longer than another way.
+                if (way_ == 0 && quads_.flipped_quads() > kMostToReopen * quads_.quad_count()) {
+                    end_way();
+                } else {
+                    stage_ = Stage::untangle;
+                }
                 break;
             case Stage::untangle:
                 stage_ = Stage::mend;

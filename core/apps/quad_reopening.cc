@@ -12,15 +12,13 @@
 #include "apps/quad_vertex_moves.hh"
 
 namespace layout_embedding {
-namespace {
-
-/// What opens a fold: vertices spread out as means of their neighbours, lower their energy one
-/// by one whatever that flips on the way, or unfold together: at once, softly at first, or to
-/// quads of one size.
-enum class Opening : std::uint8_t { spread, lower, unfold, soften, inflate };
-}  // namespace
 
 struct ReopeningAttempt {
+    /// What opens a fold: vertices spread out as means of their neighbours, lower their energy one
+    /// by one whatever that flips on the way, or unfold together: at once, softly at first, or to
+    /// quads of one size.
+    enum class Opening : std::uint8_t { spread, lower, unfold, soften, inflate };
+
     int rings;
     Opening opening;
     /// Moves what is around a landmark back onto it first; for quads at landmarks.
@@ -28,6 +26,8 @@ struct ReopeningAttempt {
 };
 
 namespace {
+
+using Opening = ReopeningAttempt::Opening;
 
 constexpr std::array<ReopeningAttempt, 31> kAttempts{{
     {4, Opening::soften, true},   {8, Opening::soften, true}, {4, Opening::inflate, true},

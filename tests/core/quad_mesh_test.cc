@@ -368,6 +368,7 @@ TEST_P(QuadsOfShapes, have_no_flipped_quads_and_the_same_connectivity_for_all_me
         ASSERT_TRUE(quads.ok()) << quads.error().message;
         expect_sound(*embedded, *quads);
         EXPECT_EQ(quads->statistics.flipped, 0U);
+        EXPECT_GT(quads->statistics.least_jacobian, 0.03);
         EXPECT_GT(quads->statistics.mean_jacobian, 0.6);
         if (first.empty()) {
             first = quads->quads;
@@ -387,7 +388,7 @@ struct Pair {
 };
 class DefaultQuadsOfShapes : public testing::TestWithParam<Pair> {};
 
-TEST_P(DefaultQuadsOfShapes, are_none_of_them_flipped)
+TEST_P(DefaultQuadsOfShapes, are_none_of_them_flipped_or_nearly_flat)
 {
     // Templates that leave thin patches, with as many quads as there are by default.
     const auto& [name, other] = GetParam();
@@ -414,6 +415,7 @@ TEST_P(DefaultQuadsOfShapes, are_none_of_them_flipped)
         ASSERT_TRUE(quads.ok()) << quads.error().message;
         expect_sound(*embedded, *quads);
         EXPECT_EQ(quads->statistics.flipped, 0U);
+        EXPECT_GT(quads->statistics.least_jacobian, 0.03);
         if (options.segments_as.empty()) {
             options.segments_as = quads->segments;
             first = quads->quads;

@@ -107,6 +107,32 @@ TEST(QuadUnfolding, opens_grids_whose_inner_vertices_lie_anywhere)
     }
 }
 
+TEST(QuadUnfolding, keeps_corners_above_the_margin)
+{
+    // A fixed vertex between two of its neighbours further away: without a margin corners beside it
+    // end below.
+    const Grid regular = make_grid();
+    const Index fixed = 3 * (kSide + 1) + 3;
+    std::vector<Index> others = regular.inner;
+    std::erase(others, fixed);
+    const auto least_jacobian = [&](double margin) {
+        Grid grid = regular;
+        place(grid, fixed,
+              regular.mesh.positions[fixed] +
+                  2.5 * (regular.mesh.positions[fixed + 1] - regular.mesh.positions[fixed]));
+        for (int round = 0; round < 60; ++round) {
+            unfold_quads(grid.target, grid.normals, others, grid.quads,
+                         {.softness = 1e-4, .inflates = false, .margin = margin}, grid.mesh);
+        }
+        return quad_statistics(grid.mesh.positions, grid.mesh.quads,
+                               surface_normals(grid.target, grid.mesh))
+            .least_jacobian;
+    };
+    constexpr double kMargin = 0.65;
+    EXPECT_LT(least_jacobian(0), kMargin);
+    EXPECT_GT(least_jacobian(kMargin), kMargin);
+}
+
 TEST(QuadUnfolding, leads_neighbours_back_around_a_fixed_vertex)
 {
     // A fixed vertex in the middle of a quad further away: its own quads are pulled out of shape.
