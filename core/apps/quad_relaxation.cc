@@ -121,7 +121,8 @@ private:
     /// it would flip more. What is still flipped has folded neighbours, and is placed anew together
     /// with them. If that does not help, all begins anew, but first all vertices lower the energy
     /// together, towards quads of one size and then of any, which opens what is folded at the
-    /// beginning. The way that leaves the fewest flipped counts.
+    /// beginning. The way that leaves the fewest flipped counts. What is nearly flat then is lifted
+    /// (kLifts), and all is evened out once more.
     enum class Stage : std::uint8_t {
         inflate,
         open,
