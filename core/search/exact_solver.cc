@@ -10,11 +10,9 @@ namespace {
 constexpr std::uint64_t kFirstExplorationShare = 4;
 constexpr std::uint64_t kMaxFirstExploration = 60'000;
 constexpr unsigned kMaxExplorations = 4;
-// Where the selection wants classes, explorations go on beyond that, as long as all of them had
-// less than this share of all work.
+// Where the selection wants classes, edges are explored as long as that had less than this share of
+// all work.
 constexpr std::uint64_t kExplorationShare = 2;
-// But none may expand more: what it has met takes memory, about 100 bytes per expansion.
-constexpr std::uint64_t kMostExploration = 1'000'000;
 // Nothing is explored any more once so many classes are known: which of them cross takes memory for
 // all pairs.
 constexpr Index kMaxExploredClasses = 8192;
@@ -330,9 +328,8 @@ Solver::Outcome ExactSolver::explore()
     for (; next_open_ < open_.size(); ++next_open_) {
         const Index edge = open_[next_open_].edge;
         Exploration& exploration = explorations_[edge];
-        const bool is_over = is_wanted_ ? first << exploration.rounds > kMostExploration
-                                        : exploration.rounds >= kMaxExplorations;
-        if (is_over || selection_.class_count() >= kMaxExploredClasses ||
+        if (exploration.rounds >= kMaxExplorations ||
+            selection_.class_count() >= kMaxExploredClasses ||
             (space_.incumbent.exists() && exploration.frontier >= base(edge) + slack)) {
             continue;
         }

@@ -17,7 +17,7 @@ import { describeMachine, printHeader, printResult, printVerdict } from "./repor
  * Units of work that the native build does in a CPU second, about: the limit on an instance is one
  * on its work, so that counts are the same on every machine.
  */
-const workPerSecond = 5_000_000;
+const workPerSecond = 4_000_000;
 
 const programs = {
     native: [path.join(root, "build/release/tests/bench/bench_embed")],
